@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oversketch {
+
+/// The whole file.
+/// @errors file.missing, file.unreadable (a folder, no permission), file.too-large (more than `most_bytes`); `where` is
+///   the path.
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 2'000'000'000);
+Result<std::string> read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 500'000'000);
+
+/// Replaces the file whole or not at all: written to a fresh name beside it, synced, renamed.  A failure leaves the old
+/// file as it was and no other file behind.
+/// @errors file.write, with the system's reason; `where` is the path.
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Result<void> write_file(const std::filesystem::path& path, std::string_view text);
+
+} // namespace oversketch

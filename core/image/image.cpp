@@ -1,0 +1,30 @@
+#include "core/image/image.h"
+
+#include <mutex>
+#include <utility>
+
+namespace oversketch {
+
+struct Image::LazyHash {
+  std::once_flag once;
+  Hash value;
+};
+
+Image::Image() : Image(Raster<Rgba>()) {}
+
+Image::Image(Raster<Rgba> pixels)
+    : pixels_(std::make_shared<const Raster<Rgba>>(std::move(pixels))), hash_(std::make_shared<LazyHash>()) {}
+
+Hash Image::content_hash() const {
+  std::call_once(hash_->once, [this] {
+    hash_->value = Hasher().add(width()).add(height()).add(pixels_->values()).finish();
+  });
+  return hash_->value;
+}
+
+bool Image::operator==(const Image& other) const {
+  return pixels_ == other.pixels_ ||
+         (width() == other.width() && height() == other.height() && content_hash() == other.content_hash());
+}
+
+} // namespace oversketch

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "core/base/check.h"
+#include "core/base/rect.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace oversketch {
+
+/// width × height values, row by row, no padding: the mutable workshop form of pictures and masks.
+template <class T>
+class Raster {
+public:
+  Raster() = default;
+  Raster(int width, int height, T fill = T{})
+      : width_(width), height_(height), values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {
+    CHECK(width >= 0 && height >= 0, "raster of negative size");
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Rect rect() const { return {0, 0, width_, height_}; }
+  bool empty() const { return values_.empty(); }
+  T& at(int x, int y) { return values_[index(x, y)]; }
+  const T& at(int x, int y) const { return values_[index(x, y)]; }
+  std::span<T> row(int y) { return std::span<T>(values_).subspan(index(0, y), static_cast<std::size_t>(width_)); }
+  std::span<const T> row(int y) const {
+    return std::span<const T>(values_).subspan(index(0, y), static_cast<std::size_t>(width_));
+  }
+  std::span<T> values() { return values_; }
+  std::span<const T> values() const { return values_; }
+  bool operator==(const Raster&) const = default;
+
+private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> values_;
+};
+
+} // namespace oversketch
