@@ -16,7 +16,8 @@ public:
 
 /// Stops with a BugError when `condition` does not hold; on in release builds too.  For bugs only: what correct use can
 /// bring about is a Result.
-#define CHECK(condition, why) \
-  do { \
-    if (!(condition)) [[unlikely]] ::oversketch::fail_check(#condition, why, __FILE__, __LINE__); \
+#define CHECK(condition, why)                                                                                          \
+  do {                                                                                                                 \
+    if (!(condition)) [[unlikely]]                                                                                     \
+      ::oversketch::fail_check(#condition, why, __FILE__, __LINE__);                                                   \
   } while (false)

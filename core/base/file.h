@@ -18,7 +18,9 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 500'000'000);
 
 /// Replaces the file whole or not at all: written to a fresh name beside it, synced, renamed.  A failure leaves the old
-/// file as it was and no other file behind.
+/// file as it was and no other file behind.  A link stays a link: the file it leads to is replaced.  Permissions of a
+/// file that was there are kept.  What is no file at all (a device, a pipe) is written to as it stands.
+/// @threads may be called from several threads, for the same path too: the last one wins whole.
 /// @errors file.write, with the system's reason; `where` is the path.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);

@@ -40,7 +40,9 @@ Hasher& Hasher::add(std::string_view text) {
   return add_bytes(text.data(), text.size());
 }
 
-Hasher& Hasher::add(const Hash& hash) { return add(hash.low).add(hash.high); }
+Hasher& Hasher::add(const Hash& hash) {
+  return add(hash.low).add(hash.high);
+}
 
 Hash Hasher::finish() const {
   const XXH128_hash_t digest = XXH3_128bits_digest(state_->stream);

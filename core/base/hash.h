@@ -36,15 +36,14 @@ public:
 
   /// A number or enum, by its bytes.  -0.0 and 0.0 differ: a hash names bits, not values.
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  Hasher& add(T value) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) Hasher& add(T value) {
     return add_bytes(&value, sizeof value);
   }
 
   /// An array of values without padding.
   template <class T>
-    requires(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T> || requires { typename T::PackedForHash; })
-  Hasher& add(std::span<const T> values) {
+  requires(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T> ||
+           requires { typename T::PackedForHash; }) Hasher& add(std::span<const T> values) {
     add(values.size());
     return add_bytes(values.data(), values.size_bytes());
   }

@@ -31,7 +31,11 @@ inline Rect unite(const Rect& a, const Rect& b) {
   return {x, y, std::max(a.right(), b.right()) - x, std::max(a.bottom(), b.bottom()) - y};
 }
 
-inline Rect translated(const Rect& r, int dx, int dy) { return {r.x + dx, r.y + dy, r.width, r.height}; }
-inline Rect grown(const Rect& r, int by) { return {r.x - by, r.y - by, r.width + 2 * by, r.height + 2 * by}; }
+inline Rect translated(const Rect& r, int dx, int dy) {
+  return {r.x + dx, r.y + dy, r.width, r.height};
+}
+inline Rect grown(const Rect& r, int by) {
+  return {r.x - by, r.y - by, r.width + 2 * by, r.height + 2 * by};
+}
 
 } // namespace oversketch

@@ -11,8 +11,8 @@ namespace oversketch {
 
 /// What went wrong in correct use: a bad file, a bad script line, a curve that crosses itself.
 ///
-/// `code` is stable and made for programs ("image.truncated"), `sentence` is made for a person and says what to do about
-/// it, `where` names the place ("fish.jsonl:12", "layer L1, outline point 7") and may be empty.
+/// `code` is stable and made for programs ("image.truncated"), `sentence` is made for a person and says what to do
+/// about it, `where` names the place ("fish.jsonl:12", "layer L1, outline point 7") and may be empty.
 struct Error {
   std::string code;
   std::string sentence;

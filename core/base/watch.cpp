@@ -5,18 +5,24 @@
 namespace oversketch {
 
 void StageTimes::add(std::string_view stage, double ms) {
-  const auto found = std::find_if(stages_ms.begin(), stages_ms.end(), [&](const auto& entry) { return entry.first == stage; });
-  if (found != stages_ms.end()) found->second += ms;
-  else stages_ms.emplace_back(stage, ms);
+  const auto found =
+      std::find_if(stages_ms.begin(), stages_ms.end(), [&](const auto& entry) { return entry.first == stage; });
+  if (found != stages_ms.end())
+    found->second += ms;
+  else
+    stages_ms.emplace_back(stage, ms);
 }
 
 double StageTimes::total_ms() const {
   double sum = 0;
-  for (const auto& [stage, ms] : stages_ms) sum += ms;
+  for (const auto& [stage, ms] : stages_ms)
+    sum += ms;
   return sum;
 }
 
-Error cancelled() { return {"cancelled", "stopped before it was done", ""}; }
+Error cancelled() {
+  return {"cancelled", "stopped before it was done", ""};
+}
 
 void StageTimer::stop() {
   if (times_ == nullptr) return;

@@ -43,7 +43,9 @@ public:
   /// Unit vector of at(s + half) − at(s − half): a tangent averaged over 2·half px; tangent(s) where that vanishes.
   Point smooth_tangent(double s, double half) const;
   int segment_at(double s) const;
-  /// Nearest point of the curve; the smaller s where several are equally near.  Grid-accelerated, about O(√n) at worst.
+  /// Nearest point of the curve, the same to the last bit as trying every segment; the smaller s where several are
+  /// equally near.  About O(log n) for points near the curve; O(n) where all of it is equally far, as from a circle's
+  /// centre.
   CurvePosition nearest(Point p) const;
   /// s of `b` minus s of `a` going forwards, in [0, length).
   double forward(double a, double b) const;
@@ -58,6 +60,8 @@ private:
 double signed_area(const Points& closed);
 double perimeter(const Points& closed);
 double path_length(const Points& open);
+/// By the nonzero-winding rule, exactly; a point on an edge belongs to the inside on the edge's right (or, for a
+/// horizontal edge, below it), as in rasterize_polygon().  O(n).
 bool contains(const Points& closed, Point p);
 
 /// Where two segments of a polyline cross or touch: segments i < j (segment k joins points k and k + 1) and the point.
@@ -67,12 +71,16 @@ struct Crossing {
   Point point;
 };
 
-/// First crossing in order of (first, second), exact (the orientation test never errs by rounding); neighbours count only
-/// when they fold back on each other.  Repeated points count as one.  Grid-accelerated: O(n) on ordinary curves.
+/// First crossing in order of (first, second), exact (the orientation test never errs by rounding); neighbours count
+/// only when they fold back on each other.  Repeated points count as one.  `point` is right to rounding.
+/// @cost O(n log n) on ordinary curves, about 0.2 µs a point, and on long straight hatching in any one direction; 150
+/// bytes
+///   a point whatever the lengths.
 std::optional<Crossing> find_self_crossing(const Points& points, bool closed);
 
-/// Douglas–Peucker: a subset of the points, every dropped one within `tolerance` px of the result's chord.  For a closed
-/// curve the first point and the one furthest from it are kept.
+/// Douglas–Peucker: a subset of the points, every dropped one within `tolerance` px of the result's chord.  For a
+/// closed curve the first point and the one furthest from it are kept.  tolerance ≥ 0 (CHECK).
+/// @cost O(n log n) on ordinary curves, O(n · points kept) at worst; no recursion.
 Points simplify(const Points& points, double tolerance, bool closed);
 
 /// `count` ≥ 3 points equally spaced by arc length, the first at s = 0.

@@ -21,25 +21,55 @@ struct Point {
 
 using Points = std::vector<Point>;
 
-inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-inline Point operator-(Point a) { return {-a.x, -a.y}; }
-inline Point operator*(double k, Point a) { return {k * a.x, k * a.y}; }
-inline Point operator*(Point a, double k) { return {k * a.x, k * a.y}; }
-inline Point operator/(Point a, double k) { return {a.x / k, a.y / k}; }
+inline Point operator+(Point a, Point b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Point operator-(Point a) {
+  return {-a.x, -a.y};
+}
+inline Point operator*(double k, Point a) {
+  return {k * a.x, k * a.y};
+}
+inline Point operator*(Point a, double k) {
+  return {k * a.x, k * a.y};
+}
+inline Point operator/(Point a, double k) {
+  return {a.x / k, a.y / k};
+}
 
-inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+inline double dot(Point a, Point b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// z of the cross product: positive when b lies clockwise of a as seen on the screen (y down).
-inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-inline double length(Point a) { return std::hypot(a.x, a.y); }
-inline double distance(Point a, Point b) { return length(b - a); }
-inline Point lerp(Point a, Point b, double t) { return a + t * (b - a); }
+inline double cross(Point a, Point b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(Point a) {
+  return std::hypot(a.x, a.y);
+}
+inline double distance(Point a, Point b) {
+  return length(b - a);
+}
+inline Point lerp(Point a, Point b, double t) {
+  return a + t * (b - a);
+}
 /// A quarter turn: (x, y) to (-y, x).
-inline Point turned(Point a) { return {-a.y, a.x}; }
-inline bool is_finite(Point a) { return std::isfinite(a.x) && std::isfinite(a.y); }
+inline Point turned(Point a) {
+  return {-a.y, a.x};
+}
+inline bool is_finite(Point a) {
+  return std::isfinite(a.x) && std::isfinite(a.y);
+}
 
-inline std::complex<double> to_complex(Point a) { return {a.x, a.y}; }
-inline Point to_point(std::complex<double> z) { return {z.real(), z.imag()}; }
+inline std::complex<double> to_complex(Point a) {
+  return {a.x, a.y};
+}
+inline Point to_point(std::complex<double> z) {
+  return {z.real(), z.imag()};
+}
 
 /// z ↦ factor · z + offset in complex numbers: rotation, uniform scale and shift, never a mirror.
 struct Similarity {
@@ -57,7 +87,8 @@ struct Similarity {
 inline Points transformed(const Points& points, const Similarity& by) {
   Points out;
   out.reserve(points.size());
-  for (const Point p : points) out.push_back(by(p));
+  for (const Point p : points)
+    out.push_back(by(p));
   return out;
 }
 
@@ -78,7 +109,8 @@ struct Box {
 
 inline Box bounds(const Points& points) {
   Box box;
-  for (const Point p : points) box.add(p);
+  for (const Point p : points)
+    box.add(p);
   return box;
 }
 

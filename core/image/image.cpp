@@ -16,9 +16,8 @@ Image::Image(Raster<Rgba> pixels)
     : pixels_(std::make_shared<const Raster<Rgba>>(std::move(pixels))), hash_(std::make_shared<LazyHash>()) {}
 
 Hash Image::content_hash() const {
-  std::call_once(hash_->once, [this] {
-    hash_->value = Hasher().add(width()).add(height()).add(pixels_->values()).finish();
-  });
+  std::call_once(hash_->once,
+                 [this] { hash_->value = Hasher().add(width()).add(height()).add(pixels_->values()).finish(); });
   return hash_->value;
 }
 

@@ -14,10 +14,9 @@ template <class T>
 class Raster {
 public:
   Raster() = default;
+  /// Sizes must not be negative (CHECK).
   Raster(int width, int height, T fill = T{})
-      : width_(width), height_(height), values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {
-    CHECK(width >= 0 && height >= 0, "raster of negative size");
-  }
+      : width_(width), height_(height), values_(checked_count(width, height), fill) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -34,6 +33,10 @@ public:
   bool operator==(const Raster&) const = default;
 
 private:
+  static std::size_t checked_count(int width, int height) {
+    CHECK(width >= 0 && height >= 0, "raster of negative size");
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }

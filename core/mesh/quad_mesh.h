@@ -7,14 +7,15 @@
 
 namespace oversketch {
 
-/// Quads over a set of vertices.  Corners run 0 = (0,0), 1 = (1,0), 2 = (1,1), 3 = (0,1) of the cell's local (u, v): clockwise
-/// on the screen.  Every cell is a square of side `cell` in the source; a deformed mesh has the same cells and other vertices.
+/// Quads over a set of vertices.  Corners run 0 = (0,0), 1 = (1,0), 2 = (1,1), 3 = (0,1) of the cell's local (u, v):
+/// clockwise on the screen.  Every cell is a square of side `cell` in the source; a deformed mesh has the same cells
+/// and other vertices.
 struct QuadMesh {
   Points vertices;
   std::vector<std::array<int, 4>> cells;
   /// Side of a cell, source pixels.
   double cell = 0;
-  /// Part of each cell's area that the region covers, (0, 1].
+  /// Part of each cell's area that the region covers, 0…1; 0 only where its outline runs along a grid line.
   std::vector<double> coverage;
 };
 

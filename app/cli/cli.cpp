@@ -1,0 +1,117 @@
+#include "app/cli/cli.h"
+
+#include "app/version.h"
+
+#include "core/base/file.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <new>
+
+namespace oversketch::cli {
+namespace {
+
+constexpr int kRefused = 1, kUsage = 2;
+
+void print_error(const Error& error) {
+  std::fprintf(stderr, "oversketch-cli: %s\n", to_string(error).c_str());
+}
+
+/// Runs the work; what a library throws becomes an Error here and nowhere else.
+Result<Json> guarded(const std::function<Result<Json>(const Watch&)>& work, const Watch& watch) {
+  try {
+    return work(watch);
+  } catch (const std::bad_alloc&) {
+    return Error{"memory", "there is not enough memory for this", ""};
+  } catch (const BugError& bug) {
+    return Error{"internal", std::string("a mistake in the program, please report it: ") + bug.what(), ""};
+  } catch (const std::exception& problem) {
+    return Error{"internal", problem.what(), ""};
+  }
+}
+
+/// One line on a terminal that is drawn over; nothing elsewhere.
+std::function<void(double, std::string_view)> terminal_progress() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [last = std::chrono::steady_clock::time_point()](double done, std::string_view stage) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < std::chrono::milliseconds(100)) return;
+    last = now;
+    std::fprintf(stderr, "\r\033[K%3.0f %%  %.*s", 100 * done, static_cast<int>(stage.size()), stage.data());
+  };
+}
+
+void clear_progress() {
+  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+}
+
+} // namespace
+
+Cli::Cli()
+    : app_("Oversketch without a window: deforms parts of pictures to sketches and blends them in.", "oversketch-cli") {
+  app_.require_subcommand(1);
+  app_.set_version_flag("--version", std::string("Oversketch ") + kVersion);
+  app_.set_help_flag("-h,--help", "Print this help and exit");
+  app_.footer("Exit codes: 0 done, 1 the input was refused (the reason is on stderr), 2 wrong usage.\n"
+              "oversketch-cli SUBCOMMAND --help has an example of each.");
+  add_run(*this);
+  add_render(*this);
+  add_deform(*this);
+  add_evaluate(*this);
+  add_clone(*this);
+  add_warp(*this);
+  add_commands(*this);
+}
+
+CLI::App* Cli::add(const std::string& name, const std::string& description, const std::string& example) {
+  CLI::App* sub = app_.add_subcommand(name, description);
+  sub->footer("Example:\n  oversketch-cli " + example);
+  sub->add_option("--report", report_path_, "write what was done and the times as JSON")->type_name("FILE");
+  sub->add_option("--threads", threads_, "use at most N threads (0: as many as there are cores)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  return sub;
+}
+
+void Cli::on_run(CLI::App* subcommand, std::function<Result<Json>(const Watch&)> work) {
+  subcommand->callback([this, name = subcommand->get_name(), work = std::move(work)] { chosen_ = name, work_ = work; });
+}
+
+int Cli::run(int argc, char** argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app_.exit(problem) == 0 ? 0 : kUsage;
+  }
+  return perform(chosen_, work_);
+}
+
+int Cli::perform(const std::string& name, const std::function<Result<Json>(const Watch&)>& work) {
+  StageTimes times;
+  Watch watch;
+  watch.times = &times;
+  watch.progress = terminal_progress();
+  const auto start = std::chrono::steady_clock::now();
+  const auto done = guarded(work, watch);
+  clear_progress();
+  if (!done) return print_error(done.error()), kRefused;
+  if (report_path_.empty()) return 0;
+
+  Json report;
+  report["version"] = kVersion;
+  report["command"] = name;
+  report["wall_ms"] = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  report["stages_ms"] = Json::object();
+  for (const auto& [stage, ms] : times.stages_ms)
+    report["stages_ms"][stage] = ms;
+  for (const auto& [key, value] : done->items())
+    report[key] = value;
+  const auto written = write_file(report_path_, report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!written) return print_error(written.error()), kRefused;
+  return 0;
+}
+
+} // namespace oversketch::cli

@@ -1,0 +1,57 @@
+#include "app/cli/cli.h"
+
+#include "core/base/file.h"
+#include "core/image/image_io.h"
+#include "core/session/runner.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace oversketch::cli {
+namespace {
+
+struct Options {
+  std::string script, out;
+  int depth = 8;
+};
+
+/// The script's last state: its commands, undo and redo, without what it writes or expects.
+Result<Json> render(const Options& options, const Watch& watch) {
+  const std::filesystem::path script(options.script);
+  const auto text = read_text_file(script);
+  if (!text) return text.error();
+  auto lines = parse_script(*text, options.script);
+  if (!lines) return lines.error();
+  std::erase_if(*lines, [](const ScriptLine& line) {
+    return !std::holds_alternative<Command>(line.step) && !std::holds_alternative<UndoStep>(line.step) &&
+           !std::holds_alternative<RedoStep>(line.step) && !std::holds_alternative<OpenStep>(line.step);
+  });
+  Session session;
+  const auto done = run_script(session, *lines, options.script, {script.parent_path(), script.parent_path()}, watch);
+  if (!done) return done.error();
+  const auto picture = session.composite(watch);
+  if (!picture) return picture.error();
+  if (auto saved = save_image(*picture, options.out, options.depth == 16 ? BitDepth::k16 : BitDepth::k8); !saved)
+    return saved.error();
+  Json report;
+  report["width"] = picture->width();
+  report["height"] = picture->height();
+  report["layers"] = session.document().layers.size();
+  return report;
+}
+
+} // namespace
+
+void add_render(Cli& cli) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* sub = cli.add("render", "Write the picture of a script's last state.",
+                          "render work.jsonl --out picture.png --depth 16");
+  sub->add_option("script", options->script, "the script, JSON Lines")->required()->type_name("SCRIPT.jsonl");
+  sub->add_option("--out", options->out, "PNG or JPEG, by its extension")->required()->type_name("PICTURE");
+  sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str();
+  cli.on_run(sub, [options](const Watch& watch) { return render(*options, watch); });
+}
+
+} // namespace oversketch::cli

@@ -1,0 +1,192 @@
+#include "core/base/file.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace oversketch {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// Owns a file descriptor.
+class Descriptor {
+public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  bool open() const { return number_ >= 0; }
+  int number() const { return number_; }
+  /// 0, or the error that closing brought to light (a full disk on some network file systems).
+  int close() {
+    if (number_ < 0) return 0;
+    return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno;
+  }
+
+private:
+  int number_;
+};
+
+/// Reads until the end, appending; stops with file.too-large beyond `most`.
+template <class Container>
+Result<Container> read_all(const fs::path& path, std::uintmax_t most) {
+  const auto unreadable = [&](const std::string& why) {
+    return Error{"file.unreadable", "the file cannot be read: " + why, path.string()};
+  };
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.open()) {
+    const int error = errno;
+    if (error == ENOENT || error == ENOTDIR) return Error{"file.missing", "there is no such file", path.string()};
+    return unreadable(reason(error));
+  }
+  struct stat info {};
+  if (::fstat(file.number(), &info) != 0) return unreadable(reason(errno));
+  if (S_ISDIR(info.st_mode)) return unreadable("it is a folder");
+  const Error too_large{"file.too-large", "the file has more than " + std::to_string(most) + " bytes", path.string()};
+  if (S_ISREG(info.st_mode) && static_cast<std::uintmax_t>(info.st_size) > most) return too_large;
+  Container bytes(static_cast<std::size_t>(S_ISREG(info.st_mode) ? info.st_size : 0), {});
+  std::size_t filled = 0;
+  for (;;) {
+    // Room for one byte more than told shows a file that grew, or a pipe, whose size nobody tells.
+    constexpr std::size_t step = 1 << 16;
+    if (filled == bytes.size()) bytes.resize(filled + (filled == 0 || filled >= step ? step : filled + 1));
+    const ssize_t got = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return unreadable(reason(errno));
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+    if (filled > most) return too_large;
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+/// 0 or the system's error.
+int write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+  return 0;
+}
+
+/// A name that no other call, thread or process is likely to choose at the same moment; O_EXCL settles the rest.
+fs::path fresh_name(const fs::path& folder, int attempt) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  char name[80];
+  std::snprintf(name, sizeof name, ".oversketch-%lx-%llx-%x.tmp", static_cast<unsigned long>(::getpid()),
+                static_cast<unsigned long long>(now), static_cast<unsigned>(attempt));
+  return folder / name;
+}
+
+/// A file beside the one to be replaced; gone with this object unless it took the other's place.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(const fs::path& folder) : file_(create(folder)) {}
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  /// 0 or the system's error, as below.
+  int error() const { return error_; }
+  int fill(std::span<const std::byte> bytes, const struct stat* old) {
+    if (old != nullptr && ::fchmod(file_.number(), old->st_mode & 07777) != 0) return errno;
+    if (const int error = write_all(file_.number(), bytes)) return error;
+    if (::fsync(file_.number()) != 0) return errno;
+    return file_.close();
+  }
+  int take_place_of(const fs::path& path) {
+    if (::rename(path_.c_str(), path.c_str()) != 0) return errno;
+    path_.clear();
+    return 0;
+  }
+
+private:
+  int create(const fs::path& folder) {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      path_ = fresh_name(folder, attempt);
+      const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor >= 0) return descriptor;
+      error_ = errno;
+      if (error_ != EEXIST) break;
+    }
+    path_.clear();
+    return -1;
+  }
+
+  fs::path path_;
+  int error_ = 0;
+  Descriptor file_;
+};
+
+int write_in_place(const fs::path& path, std::span<const std::byte> bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!file.open()) return errno;
+  if (const int error = write_all(file.number(), bytes)) return error;
+  return file.close();
+}
+
+int replace(const fs::path& path, std::span<const std::byte> bytes) {
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (exists && S_ISDIR(old.st_mode)) return EISDIR;
+  if (exists && !S_ISREG(old.st_mode)) return write_in_place(path, bytes);
+  // Asked here because taking the place of a write-protected file needs leave of its folder only.
+  if (exists && ::access(path.c_str(), W_OK) != 0) return errno;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  TemporaryFile temporary(folder);
+  if (temporary.error() != 0) return temporary.error();
+  if (const int error = temporary.fill(bytes, exists ? &old : nullptr)) return error;
+  if (const int error = temporary.take_place_of(path)) return error;
+  // The new name itself is synced with the folder.  Some file systems cannot; the file is whole there either way.
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.open()) ::fsync(opened.number());
+  return 0;
+}
+
+} // namespace
+
+Result<std::vector<std::byte>> read_file(const fs::path& path, std::uintmax_t most_bytes) {
+  return read_all<std::vector<std::byte>>(path, most_bytes);
+}
+
+Result<std::string> read_text_file(const fs::path& path, std::uintmax_t most_bytes) {
+  return read_all<std::string>(path, most_bytes);
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  std::error_code ignored;
+  fs::path real = path;
+  if (fs::is_symlink(path, ignored)) {
+    std::error_code broken;
+    real = fs::weakly_canonical(path, broken);
+    if (broken) return Error{"file.write", "the file cannot be written: " + broken.message(), path.string()};
+  }
+  if (const int error = replace(real, bytes))
+    return Error{"file.write", "the file cannot be written: " + reason(error), path.string()};
+  return {};
+}
+
+Result<void> write_file(const fs::path& path, std::string_view text) {
+  return write_file(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+} // namespace oversketch

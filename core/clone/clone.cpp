@@ -1,0 +1,136 @@
+#include "core/clone/clone.h"
+
+#include "core/base/check.h"
+#include "core/clone/guidance.h"
+#include "core/clone/paint.h"
+#include "core/clone/placed_pair.h"
+
+#include <string>
+
+namespace oversketch {
+namespace {
+
+bool is_finite(const Rgba& p) {
+  // 0 · x is not 0 for infinite x and for not-a-number.
+  return p.r * 0 + p.g * 0 + p.b * 0 + p.a * 0 == 0;
+}
+
+Error not_finite(const char* picture, int x, int y) {
+  return {"clone.not-finite", std::string("The ") + picture + " has a pixel that is not a number, or infinite.",
+          std::string(picture) + " pixel " + std::to_string(x) + ", " + std::to_string(y)};
+}
+
+Result<void> check_pixel(const PlacedPair& pair, int x, int y) {
+  if (!is_finite(pair.source_pixel(x, y))) return not_finite("source", x, y);
+  if (!is_finite(pair.target_pixel(x, y))) return not_finite("target", pair.target_x(x), pair.target_y(y));
+  return {};
+}
+
+Result<void> check_inside(const PlacedPair& pair, const Mask& mask) {
+  for (const Mask::Run& run : mask.runs()) {
+    bool good = true;
+    for (int x = run.x0; x < run.x1; ++x)
+      good &= is_finite(pair.source_pixel(x, run.y)) && is_finite(pair.target_pixel(x, run.y));
+    if (good) continue;
+    for (int x = run.x0; x < run.x1; ++x)
+      if (const Result<void> one = check_pixel(pair, x, run.y); !one) return one.error();
+  }
+  return {};
+}
+
+Result<void> check_ring(const PlacedPair& pair, const PixelGraph& graph) {
+  for (const PixelGraph::RingEdge& edge : graph.ring)
+    if (const Result<void> good = check_pixel(pair, edge.x, edge.y); !good) return good.error();
+  return {};
+}
+
+/// Everything that can be said before a pixel is read.  @param margin  pixels of source wanted round the mask.
+Result<void> check_call(const Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask,
+                        const BlendOptions& options, int margin) {
+  CHECK(source.rect.width == source.pixels.width() && source.rect.height == source.pixels.height(),
+        "a region's rect and pixels have one size");
+  if (const Result<void> good = check_options(options); !good) return good.error();
+  if (target.empty()) return Error{"clone.empty-target", "The target picture has no pixels.", ""};
+  const Rect needed = grown(mask.bounds(), margin);
+  if (!mask.empty() && intersect(needed, source.rect) != needed)
+    return Error{"clone.source-too-small",
+                 "The source picture must cover the whole mask and " + std::to_string(margin) + " pixel round it.", ""};
+  return {};
+}
+
+bool needs_solution(const BlendOptions& options) {
+  return options.mode != BlendMode::kNone && (options.strength > 0 || options.feather_px > 0);
+}
+
+/// Import and mixed without any of the correction are the source as it is: its bits need not pass through a domain.
+BlendOptions without_detours(BlendOptions options) {
+  const bool plain = options.mode == BlendMode::kImport || options.mode == BlendMode::kMixed;
+  if (plain && !needs_solution(options)) options.mode = BlendMode::kNone;
+  return options;
+}
+
+struct Correction {
+  /// By pixel number; empty where nothing was solved.
+  std::vector<Channels> values;
+  /// In the domain's values.
+  double error = 0;
+};
+
+Result<Correction> solve(const PlacedPair& pair, const PixelSolver& solver, const BlendOptions& options,
+                         const Watch& watch) {
+  const StageTimer timer(watch.times, "clone.solve");
+  const PixelGraph& graph = solver.graph();
+  const std::vector<Channels> side =
+      options.mode == BlendMode::kMixed ? mixed_side(pair, graph) : membrane_side(pair, graph);
+  if (watch.stopped()) return cancelled();
+  Correction out{solver.solve(side), 0};
+  if (watch.stopped()) return cancelled();
+  out.error = solver.error_bound(out.values, side);
+  return out;
+}
+
+} // namespace
+
+Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
+                               const PixelSolver& solver, const BlendOptions& given, const Watch& watch) {
+  CHECK(mask == solver.mask(), "the solver is made from the mask");
+  if (given.mode == BlendMode::kNone) return paste_into(target, source, mask, dx, dy, given, watch);
+  if (const Result<void> good = check_call(target, source, mask, given, 1); !good) return good.error();
+  const BlendOptions options = without_detours(given);
+  const PlacedPair pair(target, source, dx, dy, options);
+  CloneReport report{mask.count(), 0, painted_rect(target, mask, dx, dy)};
+  if (report.changed.empty()) return report;
+  if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
+  if (const Result<void> good = check_ring(pair, solver.graph()); !good) return good.error();
+
+  Correction correction;
+  if (needs_solution(options)) {
+    Result<Correction> solved = solve(pair, solver, options, watch);
+    if (!solved) return solved.error();
+    correction = std::move(*solved);
+  }
+  const StageTimer timer(watch.times, "clone.paint");
+  const Painting painting{pair, solver.graph(), options, correction.values};
+  const Result<double> largest = paint(target, painting, dx, dy, watch);
+  if (!largest) return largest.error();
+  report.residual_levels = 255 * correction.error * largest_slope(options.domain, *largest);
+  return report;
+}
+
+Result<CloneReport> paste_into(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
+                               const BlendOptions& given, const Watch& watch) {
+  BlendOptions options = given;
+  options.mode = BlendMode::kNone;
+  if (const Result<void> good = check_call(target, source, mask, options, 0); !good) return good.error();
+  const PlacedPair pair(target, source, dx, dy, options);
+  const CloneReport report{mask.count(), 0, painted_rect(target, mask, dx, dy)};
+  if (report.changed.empty()) return report;
+  if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
+  const StageTimer timer(watch.times, "clone.paint");
+  const PixelGraph graph(mask);
+  const Result<double> largest = paint(target, {pair, graph, options, {}}, dx, dy, watch);
+  if (!largest) return largest.error();
+  return report;
+}
+
+} // namespace oversketch

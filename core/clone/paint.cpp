@@ -1,0 +1,132 @@
+#include "core/clone/paint.h"
+
+#include "core/clone/feather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace oversketch {
+namespace {
+
+/// A run clipped to the target: columns x0 ≤ x < x1 and row y of the target, `pixel` the number of the first one.
+struct TargetRun {
+  int y = 0;
+  int x0 = 0;
+  int x1 = 0;
+  int pixel = 0;
+
+  int length() const { return x1 - x0; }
+};
+
+/// Empty (x0 ≥ x1) when it lies outside.
+TargetRun clip(const Raster<Rgba>& target, const Mask::Run& run, int first, int dx, int dy) {
+  // dx and dy may be any int.
+  const std::int64_t y = static_cast<std::int64_t>(run.y) + dy;
+  if (y < 0 || y >= target.height()) return {};
+  const std::int64_t left = static_cast<std::int64_t>(run.x0) + dx;
+  const auto x0 = std::clamp<std::int64_t>(left, 0, target.width());
+  const auto x1 = std::clamp<std::int64_t>(static_cast<std::int64_t>(run.x1) + dx, 0, target.width());
+  if (x0 >= x1) return {};
+  return {static_cast<int>(y), static_cast<int>(x0), static_cast<int>(x1), first + static_cast<int>(x0 - left)};
+}
+
+std::vector<TargetRun> clip_runs(const Raster<Rgba>& target, const PixelGraph& graph, int dx, int dy) {
+  std::vector<TargetRun> out;
+  const std::vector<Mask::Run>& runs = graph.mask.runs();
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (const TargetRun run = clip(target, runs[k], graph.first[k], dx, dy); run.x0 < run.x1) out.push_back(run);
+  return out;
+}
+
+/// `colour` laid over `below` with weight w.
+Rgba over(const Channels& colour, double w, const Rgba& below) {
+  const double under = (1 - w) * below.a, alpha = w + under;
+  if (!(alpha > 0)) return below;
+  const auto mix = [&](double top, double bottom) { return static_cast<float>((w * top + under * bottom) / alpha); };
+  return {mix(colour.v[0], below.r), mix(colour.v[1], below.g), mix(colour.v[2], below.b), static_cast<float>(alpha)};
+}
+
+class Painter {
+public:
+  explicit Painter(const Painting& painting)
+      : pair_(painting.pair), options_(painting.options), correction_(painting.correction) {
+    const bool fades = options_.mode == BlendMode::kNone || options_.strength < 1;
+    if (fades && options_.feather_px > 0) inside_ = inside_weights(painting.graph, options_.feather_px);
+  }
+
+  /// Pixel number k at (x, y) of the mask.
+  Rgba operator()(int k, int x, int y) const {
+    const Rgba &source = pair_.source_pixel(x, y), &below = pair_.target_pixel(x, y);
+    const bool pastes = options_.mode == BlendMode::kNone;
+    const double inside = inside_.empty() ? 1 : inside_[static_cast<std::size_t>(k)];
+    const double w = source.a * options_.opacity * (pastes ? inside : 1);
+    if (w == 0) return below;
+    const Channels colour = pastes ? Channels{{source.r, source.g, source.b, 0}} : blended(k, source, below, inside);
+    if (w == 1)
+      return {static_cast<float>(colour.v[0]), static_cast<float>(colour.v[1]), static_cast<float>(colour.v[2]), 1};
+    return over(colour, w, below);
+  }
+
+private:
+  Channels blended(int k, const Rgba& source, const Rgba& below, double inside) const {
+    Channels values = pair_.source_values(source);
+    if (!correction_.empty()) {
+      const double strength = 1 - (1 - options_.strength) * inside;
+      values += strength * correction_[static_cast<std::size_t>(k)];
+    }
+    if (options_.mode == BlendMode::kAverage)
+      values = options_.average * values + (1 - options_.average) * to_domain(below, options_.domain);
+    return from_domain(values, options_.domain);
+  }
+
+  const PlacedPair& pair_;
+  const BlendOptions& options_;
+  std::span<const Channels> correction_;
+  /// Empty: all 1.
+  std::vector<double> inside_;
+};
+
+float largest_of(const Rgba& p) {
+  return std::max({std::abs(p.r), std::abs(p.g), std::abs(p.b)});
+}
+
+} // namespace
+
+Rect painted_rect(const Raster<Rgba>& target, const Mask& mask, int dx, int dy) {
+  Rect box;
+  for (const Mask::Run& run : mask.runs())
+    if (const TargetRun t = clip(target, run, 0, dx, dy); t.x0 < t.x1) box = unite(box, {t.x0, t.y, t.length(), 1});
+  return box;
+}
+
+Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch) {
+  const std::vector<TargetRun> runs = clip_runs(target, painting.graph, dx, dy);
+  std::size_t count = 0;
+  for (const TargetRun& run : runs)
+    count += static_cast<std::size_t>(run.length());
+  // Set aside first, so that a result that overflows leaves the target as it was.
+  std::vector<Rgba> result;
+  result.reserve(count);
+  const Painter painter(painting);
+  float largest = 0;
+  bool finite = true;
+  for (const TargetRun& run : runs)
+    for (int i = 0; i < run.length(); ++i) {
+      result.push_back(painter(run.pixel + i, run.x0 + i - dx, run.y - dy));
+      const float here = largest_of(result.back());
+      finite &= std::isfinite(result.back().r) && std::isfinite(result.back().g) && std::isfinite(result.back().b);
+      largest = std::max(largest, here);
+    }
+  if (!finite) return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
+  if (watch.stopped()) return cancelled();
+  auto from = result.begin();
+  for (const TargetRun& run : runs) {
+    std::copy(from, from + run.length(), &target.at(run.x0, run.y));
+    from += run.length();
+  }
+  return static_cast<double>(largest);
+}
+
+} // namespace oversketch

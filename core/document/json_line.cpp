@@ -1,0 +1,40 @@
+#include "core/document/json_line.h"
+
+#include <set>
+
+namespace oversketch {
+
+Result<Json> parse_json_line(std::string_view line) {
+  std::set<std::string> keys;
+  std::optional<std::string> repeated;
+  const auto watch_keys = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1)
+      if (!keys.insert(parsed.get<std::string>()).second) repeated = parsed.get<std::string>();
+    return true;
+  };
+  Json object;
+  try {
+    object = Json::parse(line, watch_keys);
+  } catch (const Json::exception& problem) {
+    // The library's text is "[json.exception.…] parse error at line 1, column 17: …".
+    std::string reason = problem.what();
+    if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+    return Error{"script.syntax", "not JSON: " + reason.substr(0, 300), ""};
+  }
+  if (!object.is_object()) return Error{"script.not-an-object", "a line must be an object {…}", ""};
+  if (repeated) return Error{"script.repeated-key", "\"" + *repeated + "\" stands there twice", ""};
+  return object;
+}
+
+std::string print_json_line(const Json& object) {
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<std::string> read_do(const Json& object) {
+  const auto found = object.find("do");
+  if (found == object.end() || !found->is_string())
+    return Error{"script.no-do", "a line needs \"do\" with a command's name", ""};
+  return found->get<std::string>();
+}
+
+} // namespace oversketch

@@ -1,0 +1,33 @@
+#pragma once
+
+// One line of JSON: a script's line.  Shared by the commands' and the script's readers.
+
+#include "core/base/result.h"
+#include "core/document/command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oversketch {
+
+using Json = nlohmann::ordered_json;
+
+/// @errors script.syntax (with the column), script.not-an-object, script.repeated-key.
+Result<Json> parse_json_line(std::string_view line);
+
+std::string print_json_line(const Json& object);
+
+/// The value of "do".
+/// @errors script.no-do.
+Result<std::string> read_do(const Json& object);
+
+/// The command of that name read from the object, or nothing when no command has it.
+std::optional<Result<Command>> read_command(const Json& object, const std::string& name);
+
+std::vector<std::string_view> command_names();
+
+} // namespace oversketch

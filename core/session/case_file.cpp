@@ -1,0 +1,139 @@
+#include "core/session/case_file.h"
+
+#include "core/base/file.h"
+#include "core/document/field_values.h"
+#include "core/geometry/curve.h"
+#include "core/session/report.h"
+
+namespace oversketch {
+namespace {
+
+Result<Json> read_json(const std::filesystem::path& path) {
+  const auto text = read_text_file(path);
+  if (!text) return text.error();
+  try {
+    return Json::parse(*text);
+  } catch (const Json::exception& problem) {
+    std::string reason = problem.what();
+    if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+    return Error{"case.syntax", "not JSON: " + reason.substr(0, 300), path.string()};
+  }
+}
+
+/// Points under a key; `required` or left empty.
+Result<Points> points_under(const Json& object, const char* key, bool required) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) {
+    if (!required) return Points{};
+    return Error{"case.missing-key", std::string("\"") + key + "\" is missing", ""};
+  }
+  Points points;
+  if (auto wrong = read_value(*found, points))
+    return Error{"case.type", std::string("\"") + key + "\" must be " + *wrong, ""};
+  return points;
+}
+
+/// An outline that is simple as it stands; its points keep their number and order, so that results speak of the same
+/// ones.
+Result<Points> outline_of(const Json& object) {
+  auto points = points_under(object, "outline", true);
+  if (!points) return points;
+  if (auto sound = check_closed_curve(*points, "outline"); !sound) return sound.error();
+  return points;
+}
+
+Result<std::vector<PinPair>> read_pins(const Json& object) {
+  std::vector<PinPair> pins;
+  const auto list = object.find("pins");
+  if (list == object.end() || list->is_null()) return pins;
+  const Error wrong{"case.type", "\"pins\" must be a list of {\"outline\": [x, y], \"sketch\": [x, y]}", ""};
+  if (!list->is_array()) return wrong;
+  for (const Json& item : *list) {
+    PinPair pin;
+    if (!item.is_object() || !item.contains("outline") || !item.contains("sketch")) return wrong;
+    if (read_value(item["outline"], pin.outline) || read_value(item["sketch"], pin.sketch)) return wrong;
+    pins.push_back(pin);
+  }
+  return pins;
+}
+
+Result<DeformCase> case_from(const Json& object) {
+  if (!object.is_object()) return Error{"case.type", "a case is an object {\"outline\": …, \"sketch\": …}", ""};
+  DeformCase given;
+  if (const auto name = object.find("name"); name != object.end() && name->is_string())
+    given.name = name->get<std::string>();
+  auto outline = outline_of(object);
+  if (!outline) return outline.error();
+  auto sketch = points_under(object, "sketch", true);
+  if (!sketch) return sketch.error();
+  auto truth = points_under(object, "truth", false);
+  if (!truth) return truth.error();
+  if (!truth->empty() && truth->size() != outline->size())
+    return Error{"case.truth",
+                 "\"truth\" has " + std::to_string(truth->size()) + " points, \"outline\" " +
+                     std::to_string(outline->size()),
+                 ""};
+  auto pins = read_pins(object);
+  if (!pins) return pins.error();
+  given.outline = std::move(*outline);
+  given.sketch = std::move(*sketch);
+  given.truth = std::move(*truth);
+  given.pins = std::move(*pins);
+  return given;
+}
+
+Json grid_json(const Deformation& deformation) {
+  Json grid;
+  grid["source"] = write_value(deformation.mesh->vertices);
+  grid["deformed"] = write_value(deformation.positions);
+  grid["cells"] = deformation.mesh->cells;
+  return grid;
+}
+
+} // namespace
+
+Result<DeformCase> read_case(const std::filesystem::path& path) {
+  const auto object = read_json(path);
+  if (!object) return object.error();
+  auto given = case_from(*object);
+  if (!given) return at(path.string(), given.error());
+  if (given->name.empty()) given->name = path.stem().string();
+  return given;
+}
+
+Result<Points> read_points(const std::filesystem::path& path, const std::vector<std::string>& keys) {
+  const auto json = read_json(path);
+  if (!json) return json.error();
+  Points points;
+  if (json->is_object()) {
+    for (const std::string& key : keys)
+      if (json->contains(key)) {
+        auto found = points_under(*json, key.c_str(), true);
+        return found ? found : at(path.string(), found.error());
+      }
+    return Error{"case.missing-key", "\"" + keys.front() + "\" is missing", path.string()};
+  }
+  if (auto wrong = read_value(*json, points)) return Error{"case.type", "the file must hold " + *wrong, path.string()};
+  return points;
+}
+
+Result<DeformedCase> solve_case(const DeformCase& given, const DeformOptions& options, const Watch& watch) {
+  DeformCounts counts;
+  const auto system = DeformSystem::make(given.outline, options, nullptr, counts, watch);
+  if (!system) return system.error();
+  auto deformation = system->deform(given.sketch, given.pins, options, counts, watch);
+  if (!deformation) return deformation.error();
+  Metrics metrics = measure(*deformation, ClosedCurve(given.sketch), given.truth);
+  return DeformedCase{std::move(*deformation), std::move(metrics)};
+}
+
+Json result_json(const DeformedCase& solved) {
+  Json json;
+  json["positions"] = write_value(solved.deformation.outline);
+  json["correspondence"] = solved.deformation.correspondence;
+  json["grid"] = grid_json(solved.deformation);
+  json["metrics"] = metrics_json(solved.metrics);
+  return json;
+}
+
+} // namespace oversketch

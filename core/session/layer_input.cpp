@@ -1,0 +1,131 @@
+#include "core/session/layer_input.h"
+
+namespace oversketch {
+namespace {
+
+Method method_of(DeformMethod method) {
+  switch (method) {
+  case DeformMethod::kFlipfree:
+  case DeformMethod::kPaper:
+    return Method::kPaper;
+  case DeformMethod::kInitial:
+    return Method::kInitial;
+  }
+  CHECK(false, "a method without a solver");
+  return {};
+}
+
+BlendMode mode_of(CloneMode mode) {
+  switch (mode) {
+  case CloneMode::kImport:
+    return BlendMode::kImport;
+  case CloneMode::kMixed:
+    return BlendMode::kMixed;
+  case CloneMode::kMonochrome:
+    return BlendMode::kMonochrome;
+  case CloneMode::kAverage:
+    return BlendMode::kAverage;
+  case CloneMode::kNone:
+    return BlendMode::kNone;
+  }
+  CHECK(false, "a mode without a blend");
+  return {};
+}
+
+Domain domain_of(CloneDomain domain) {
+  switch (domain) {
+  case CloneDomain::kEncoded:
+    return Domain::kEncoded;
+  case CloneDomain::kLinear:
+    return Domain::kLinear;
+  case CloneDomain::kLog:
+    return Domain::kLog;
+  }
+  CHECK(false, "a domain without a blend");
+  return {};
+}
+
+void add_points(Hasher& hasher, const Points& points) {
+  hasher.add(std::span<const Point>(points));
+}
+
+} // namespace
+
+DeformOptions deform_options(const Layer& layer) {
+  DeformOptions options;
+  options.method = method_of(layer.settings.method);
+  options.cell_px = layer.settings.cell_px;
+  options.handle_weight = layer.settings.handle_weight;
+  options.iterations = layer.settings.iterations;
+  return options;
+}
+
+BlendOptions blend_options(const Layer& layer) {
+  BlendOptions options;
+  options.mode = mode_of(layer.settings.mode);
+  options.strength = layer.settings.strength;
+  options.domain = domain_of(layer.settings.domain);
+  options.feather_px = layer.settings.feather_px;
+  options.opacity = layer.settings.opacity;
+  return options;
+}
+
+std::vector<PinPair> pin_pairs(const Layer& layer) {
+  std::vector<PinPair> pairs;
+  for (const Pin& pin : layer.pins)
+    pairs.push_back({pin.outline, pin.sketch});
+  return pairs;
+}
+
+Hash mesh_key(const Layer& layer) {
+  Hasher hasher;
+  add_points(hasher, layer.outline);
+  return hasher.add(layer.settings.cell_px).finish();
+}
+
+Hash system_key(const Layer& layer) {
+  return Hasher().add(mesh_key(layer)).add(layer.settings.handle_weight).finish();
+}
+
+Hash deformation_key(const Layer& layer) {
+  const DeformOptions options = deform_options(layer);
+  Hasher hasher;
+  hasher.add(system_key(layer)).add(options.method);
+  if (options.method == Method::kPaper) hasher.add(options.iterations);
+  add_points(hasher, layer.sketch);
+  for (const Pin& pin : layer.pins)
+    hasher.add(pin.outline.x).add(pin.outline.y).add(pin.sketch.x).add(pin.sketch.y);
+  return hasher.finish();
+}
+
+Hash shape_key(const Layer& layer) {
+  const Placement& p = layer.placement;
+  return Hasher()
+      .add(deformation_key(layer))
+      .add(layer.source.image.content_hash())
+      .add(p.factor.real())
+      .add(p.factor.imag())
+      .add(p.offset.x)
+      .add(p.offset.y)
+      .finish();
+}
+
+Hash blend_key(const Layer& layer) {
+  const LayerSettings& s = layer.settings;
+  return Hasher()
+      .add(shape_key(layer))
+      .add(layer.placement.dx)
+      .add(layer.placement.dy)
+      .add(s.mode)
+      .add(s.strength)
+      .add(s.domain)
+      .add(s.feather_px)
+      .add(s.opacity)
+      .finish();
+}
+
+bool is_drawn(const Layer& layer) {
+  return layer.settings.visible && layer.settings.opacity > 0 && !layer.outline.empty();
+}
+
+} // namespace oversketch

@@ -1,0 +1,242 @@
+#include "core/session/session.h"
+
+#include "core/clone/clone.h"
+#include "core/clone/pixel_solver.h"
+#include "core/session/content_cache.h"
+#include "core/session/layer_input.h"
+#include "core/warp/warp.h"
+
+#include <cmath>
+
+namespace oversketch {
+
+/// A deformed region in the target's pixels, before the whole-pixel shift.
+struct Session::Shape {
+  Mask mask;
+  WarpedRegion warped;
+  std::shared_ptr<const PixelSolver> solver;
+};
+
+struct Session::Caches {
+  // Systems are small beside their use; shapes hold a factor of about 240 bytes a pixel, composites 16.
+  ContentCache<DeformSystem> systems{16};
+  ContentCache<DeformSystem> systems_by_mesh{16};
+  ContentCache<Deformation> deformations{64};
+  ContentCache<Shape> shapes{6};
+  ContentCache<Image> composites{6};
+};
+
+namespace {
+
+std::string place_of(const Layer& layer) {
+  return "layer " + to_string(layer.id);
+}
+
+/// The pasted region's mask: the raster of its deformed boundary.
+Result<Mask> raster_of(const Points& boundary) {
+  const Box box = bounds(boundary);
+  for (const Point p : {box.low, box.high})
+    if (!is_finite(p) || std::abs(p.x) >= kMaskCoordinateLimit || std::abs(p.y) >= kMaskCoordinateLimit)
+      return Error{"layer.too-far", "the deformed region reaches more than a million pixels away", ""};
+  const int x = static_cast<int>(std::floor(box.low.x)), y = static_cast<int>(std::floor(box.low.y));
+  const Rect clip{x, y, static_cast<int>(std::ceil(box.high.x)) - x, static_cast<int>(std::ceil(box.high.y)) - y};
+  return rasterize_polygon(boundary, clip);
+}
+
+} // namespace
+
+Counters& Counters::operator+=(const Counters& other) {
+  deform.meshings += other.deform.meshings;
+  deform.symbolic_factorizations += other.deform.symbolic_factorizations;
+  deform.numeric_factorizations += other.deform.numeric_factorizations;
+  deform.matches += other.deform.matches;
+  mask_setups += other.mask_setups;
+  clone_solves += other.clone_solves;
+  return *this;
+}
+
+Session::Session() : Session(History::Limits{}) {}
+Session::Session(History::Limits limits) : history_(limits), caches_(std::make_unique<Caches>()) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Result<void> Session::execute(const Command& command, const Watch& watch) {
+  auto after = apply(document(), command);
+  if (!after) return after.error();
+  for (const Layer& layer : after->layers) {
+    const Layer* before = document().find(layer.id);
+    if (layer.outline.empty() || (before != nullptr && system_key(*before) == system_key(layer))) continue;
+    if (auto system = system_of(layer, watch); !system) return system.error();
+  }
+  if (std::holds_alternative<DocumentNew>(command)) log_.clear();
+  log_.push_back(command);
+  std::string label = label_of(command, document(), *after);
+  history_.push(std::move(*after), command, std::move(label));
+  return {};
+}
+
+Result<void> Session::undo(std::size_t steps) {
+  auto done = history_.undo(steps);
+  if (done) log_.push_back(UndoStep{static_cast<int>(steps)});
+  return done;
+}
+
+Result<void> Session::redo(std::size_t steps) {
+  auto done = history_.redo(steps);
+  if (done) log_.push_back(RedoStep{static_cast<int>(steps)});
+  return done;
+}
+
+void Session::adopt(Session other) {
+  history_ = std::move(other.history_);
+  log_ = std::move(other.log_);
+  counters_ += other.counters_;
+}
+
+Result<std::shared_ptr<const DeformSystem>> Session::system_of(const Layer& layer, const Watch& watch) {
+  const Hash key = system_key(layer), by_mesh = mesh_key(layer);
+  if (auto cached = caches_->systems.find(key)) return cached;
+  const auto like = caches_->systems_by_mesh.find(by_mesh);
+  auto made = DeformSystem::make(layer.outline, deform_options(layer), like.get(), counters_.deform, watch);
+  if (!made) return at(place_of(layer), made.error());
+  auto system = std::make_shared<const DeformSystem>(std::move(*made));
+  if (!like) caches_->systems_by_mesh.put(by_mesh, system);
+  return caches_->systems.put(key, std::move(system));
+}
+
+Result<std::shared_ptr<const Deformation>> Session::deform(const Layer& layer, const Watch& watch) {
+  if (layer.outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(layer)};
+  const Hash key = deformation_key(layer);
+  if (auto cached = caches_->deformations.find(key)) return cached;
+  const auto system = system_of(layer, watch);
+  if (!system) return system.error();
+  auto made = (*system)->deform(layer.sketch, pin_pairs(layer), deform_options(layer), counters_.deform, watch);
+  if (!made) return at(place_of(layer), made.error());
+  return caches_->deformations.put(key, std::make_shared<const Deformation>(std::move(*made)));
+}
+
+Result<std::shared_ptr<const Deformation>> Session::deformation(LayerId id, const Watch& watch) {
+  const Layer* layer = document().find(id);
+  if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
+  return deform(*layer, watch);
+}
+
+Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
+  const auto deformed = deformation(id, watch);
+  if (!deformed) return deformed.error();
+  const Layer& layer = *document().find(id);
+  const Similarity to_target = layer.placement.to_target();
+  Deformation placed = **deformed;
+  placed.positions = transformed(placed.positions, to_target);
+  placed.outline = transformed(placed.outline, to_target);
+  return measure(placed, ClosedCurve(layer.sketch_in_target()), {});
+}
+
+Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& layer, const Watch& watch) {
+  const Hash key = shape_key(layer);
+  auto shape = caches_->shapes.find(key);
+  const bool needs_solver = layer.settings.mode != CloneMode::kNone;
+  if (shape && (shape->solver || !needs_solver || shape->mask.empty())) return shape;
+
+  auto made = std::make_shared<Shape>();
+  if (shape) {
+    *made = *shape;
+  } else {
+    const auto deformed = deform(layer, watch);
+    if (!deformed) return deformed.error();
+    const Similarity place = layer.placement.sub_pixel();
+    StageTimer timer(watch.times, "warp");
+    auto mask = raster_of(transformed((*deformed)->boundary, place));
+    if (!mask) return at(place_of(layer), mask.error());
+    if (!mask->empty()) {
+      const Mask region = rasterize_polygon(layer.outline, layer.source.image.rect());
+      auto warped = warp_region(layer.source.image, *(*deformed)->mesh, transformed((*deformed)->positions, place),
+                                *mask, watch, &region);
+      if (!warped) return at(place_of(layer), warped.error());
+      made->mask = opaque_part(*warped, *mask);
+      made->warped = std::move(*warped);
+    }
+  }
+  if (needs_solver && !made->mask.empty()) {
+    StageTimer timer(watch.times, "mask");
+    auto solver = PixelSolver::make(made->mask, watch);
+    if (!solver) return at(place_of(layer), solver.error());
+    made->solver = std::make_shared<const PixelSolver>(std::move(*solver));
+    ++counters_.mask_setups;
+  }
+  return caches_->shapes.put(key, std::move(made));
+}
+
+Result<Image> Session::blend(const Layer& layer, const Image& below, const Watch& watch) {
+  const auto shape = shape_of(layer, watch);
+  if (!shape) return shape.error();
+  if ((*shape)->mask.empty()) return below;
+  StageTimer timer(watch.times, "blend");
+  Raster<Rgba> pixels = below.pixels();
+  const Shape& s = **shape;
+  const auto [dx, dy] = std::pair(layer.placement.dx, layer.placement.dy);
+  const auto report = layer.settings.mode == CloneMode::kNone
+                          ? paste_into(pixels, s.warped, s.mask, dx, dy, blend_options(layer), watch)
+                          : clone_into(pixels, s.warped, s.mask, dx, dy, *s.solver, blend_options(layer), watch);
+  if (!report) return at(place_of(layer), report.error());
+  ++counters_.clone_solves;
+  return Image(std::move(pixels));
+}
+
+Result<Image> Session::composite_until(const Document& document, std::size_t count, const Watch& watch) {
+  if (document.empty()) return Error{"document.none", "there is no document yet: begin with document.new", ""};
+  std::vector<const Layer*> drawn;
+  for (std::size_t i = 0; i < count; ++i)
+    if (is_drawn(document.layers[i])) drawn.push_back(&document.layers[i]);
+  std::vector<Hash> keys{document.target.image.content_hash()};
+  for (const Layer* layer : drawn)
+    keys.push_back(Hasher().add(keys.back()).add(blend_key(*layer)).finish());
+
+  // The highest picture that is still there, then what stands above it.
+  std::size_t have = drawn.size();
+  Image picture = document.target.image;
+  for (; have > 0; --have)
+    if (const auto cached = caches_->composites.find(keys[have])) {
+      picture = *cached;
+      break;
+    }
+  for (; have < drawn.size(); ++have) {
+    if (watch.stopped()) return cancelled();
+    watch.report(static_cast<double>(have) / static_cast<double>(drawn.size()), "blending " + drawn[have]->name);
+    auto blended = blend(*drawn[have], picture, watch);
+    if (!blended) return blended.error();
+    picture = std::move(*blended);
+    caches_->composites.put(keys[have + 1], std::make_shared<const Image>(picture));
+  }
+  return picture;
+}
+
+Result<Image> Session::composite(const Watch& watch) {
+  return composite_until(document(), document().layers.size(), watch);
+}
+
+Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
+  const Document& now = document();
+  const Layer* layer = now.find(id);
+  if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
+  const auto index = static_cast<std::size_t>(layer - now.layers.data());
+  Document shown = now;
+  shown.layers[index].settings.visible = true;
+  const auto picture = composite_until(shown, index + 1, watch);
+  if (!picture) return picture.error();
+  Raster<Rgba> alone(picture->width(), picture->height(), {0, 0, 0, 0});
+  if (is_drawn(shown.layers[index])) {
+    const auto shape = shape_of(shown.layers[index], watch);
+    if (!shape) return shape.error();
+    const Mask placed = translated((*shape)->mask, layer->placement.dx, layer->placement.dy);
+    for (const Mask::Run& run : placed.runs()) {
+      if (run.y < 0 || run.y >= alone.height()) continue;
+      for (int x = std::max(run.x0, 0); x < std::min(run.x1, alone.width()); ++x)
+        alone.at(x, run.y) = picture->at(x, run.y);
+    }
+  }
+  return Image(std::move(alone));
+}
+
+} // namespace oversketch

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/watch.h"
+#include "core/deform/deformation.h"
+#include "core/document/history.h"
+#include "core/session/script.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace oversketch {
+
+/// How often each kind of work was done since the session began; tests hold edits against these.
+struct Counters {
+  DeformCounts deform;
+  /// Rasters and factorizations of a mask.
+  std::int64_t mask_setups = 0;
+  /// Right-hand side, solve and painting of one layer.
+  std::int64_t clone_solves = 0;
+
+  Counters& operator+=(const Counters& other);
+};
+
+/// A document with its history and everything derived from it: what programs talk to.
+///
+/// Derived results are kept by the content they depend on, so that an edit redoes only what it touches, and undo finds
+/// what was there:
+///
+///     outline, cell, method            → mesh, symbolic and numeric factor
+///     … + sketch, pins, iterations     → deformed mesh
+///     … + source, turn, scale          → pixel mask, warped source, factor of the mask
+///     … + whole-pixel place, blending, what lies below → the picture
+///
+/// @threads one at a time; the images and deformations that are handed out may be read from any.
+class Session {
+public:
+  Session();
+  explicit Session(History::Limits limits);
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
+  const Document& document() const { return history_.present(); }
+  const History& history() const { return history_; }
+  const Counters& counters() const { return counters_; }
+
+  /// Applies a command whose images are loaded, and meshes the regions it changed, so that what cannot be meshed is
+  /// refused here.
+  /// @errors those of apply() and make_region_mesh(), with the layer as the place; nothing is changed then.
+  Result<void> execute(const Command& command, const Watch& watch = {});
+  Result<void> undo(std::size_t steps = 1);
+  Result<void> redo(std::size_t steps = 1);
+  void mark_saved() { history_.mark_saved(); }
+  /// Takes over the document, history and log of another session; the counters add up.
+  void adopt(Session other);
+
+  /// Every command, undo and redo since the document was begun: replaying it gives this document and this history.
+  const std::vector<Step>& log() const { return log_; }
+
+  /// The layer's deformed region, in its own space; apply the placement for target pixels.
+  /// @errors layer.unknown, layer.no-region, those of the solvers, cancelled.
+  Result<std::shared_ptr<const Deformation>> deformation(LayerId id, const Watch& watch = {});
+  /// Its distortion; lengths in target pixels.
+  Result<Metrics> metrics(LayerId id, const Watch& watch = {});
+
+  /// The target with all visible layers blended in, lowest first.
+  /// @errors document.none, those of warp and clone with the layer as the place, cancelled.
+  Result<Image> composite(const Watch& watch = {});
+
+  /// One layer as it stands in the composite of those below it: opaque where it is, transparent elsewhere, of the
+  /// target's size.
+  Result<Image> layer_picture(LayerId id, const Watch& watch = {});
+
+private:
+  struct Caches;
+  struct Shape;
+
+  Result<std::shared_ptr<const DeformSystem>> system_of(const Layer& layer, const Watch& watch);
+  Result<std::shared_ptr<const Deformation>> deform(const Layer& layer, const Watch& watch);
+  Result<std::shared_ptr<const Shape>> shape_of(const Layer& layer, const Watch& watch);
+  Result<Image> blend(const Layer& layer, const Image& below, const Watch& watch);
+  /// The picture up to and including the layer of that index.
+  Result<Image> composite_until(const Document& document, std::size_t count, const Watch& watch);
+
+  History history_;
+  Counters counters_;
+  std::vector<Step> log_;
+  std::unique_ptr<Caches> caches_;
+};
+
+} // namespace oversketch
