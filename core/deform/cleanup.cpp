@@ -173,9 +173,11 @@ private:
   std::map<double, Piece> pieces_;
 };
 
+/// Points with the arc length where each is come to and left.
 struct Measured {
   Points points;
   std::vector<double> s;
+  std::vector<double> left;
 };
 
 /// Cuts the loops, shortest first: a loop within a loop goes with it.
@@ -198,21 +200,26 @@ Result<CutAway> cut_loops(const std::vector<Cut>& cuts, double total) {
   return away;
 }
 
-Measured without_pieces(const Measured& given, const CutAway& away) {
+Measured without_pieces(const Measured& given, const CutAway& away, double total) {
   Measured kept;
   auto piece = away.pieces().begin();
-  const auto put = [&](Point p, double s) {
+  const auto put = [&](Point p, double s, double left) {
     if (!kept.points.empty() && kept.points.back() == p) return;
     kept.points.push_back(p);
     kept.s.push_back(s);
+    kept.left.push_back(left);
+  };
+  const auto put_piece = [&] {
+    put(piece->second.point, piece->first, piece->second.end < total ? piece->second.end : piece->second.end - total);
+    ++piece;
   };
   for (std::size_t i = 0; i < given.points.size(); ++i) {
-    for (; piece != away.pieces().end() && piece->first <= given.s[i]; ++piece)
-      put(piece->second.point, piece->first);
-    if (!away.holds(given.s[i])) put(given.points[i], given.s[i]);
+    while (piece != away.pieces().end() && piece->first <= given.s[i])
+      put_piece();
+    if (!away.holds(given.s[i])) put(given.points[i], given.s[i], given.s[i]);
   }
-  for (; piece != away.pieces().end(); ++piece)
-    put(piece->second.point, piece->first);
+  while (piece != away.pieces().end())
+    put_piece();
   return kept;
 }
 
@@ -222,7 +229,7 @@ Result<Measured> check_points(const Points& given) {
     if (std::max(std::abs(p.x), std::abs(p.y)) >= kMaskCoordinateLimit)
       return Error{"sketch.too-far", "The sketch reaches to " + format_place(p) + ", too far from the picture.", ""};
   }
-  Measured measured{without_repeats(given), {}};
+  Measured measured{without_repeats(given), {}, {}};
   if (measured.points.size() < 3)
     return Error{"sketch.too-few-points", "A sketch needs at least 3 different points.", ""};
   double s = 0;
@@ -239,14 +246,18 @@ CleanSketch make_clean(Measured kept, double orientation, double total) {
   if (reversed) {
     std::reverse(kept.points.begin(), kept.points.end());
     std::reverse(kept.s.begin(), kept.s.end());
-    for (double& s : kept.s)
-      s = s > 0 ? total - s : 0.0;
+    std::reverse(kept.left.begin(), kept.left.end());
+    std::swap(kept.s, kept.left);
+    for (auto* places : {&kept.s, &kept.left})
+      for (double& s : *places)
+        s = s > 0 ? total - s : 0.0;
   }
   const auto start = static_cast<std::ptrdiff_t>(find_start(kept.points));
   std::rotate(kept.points.begin(), kept.points.begin() + start, kept.points.end());
   std::rotate(kept.s.begin(), kept.s.begin() + start, kept.s.end());
+  std::rotate(kept.left.begin(), kept.left.begin() + start, kept.left.end());
   ClosedCurve curve(std::move(kept.points));
-  return {std::move(curve), std::move(kept.s), total, reversed, 0, 0};
+  return {std::move(curve), std::move(kept.s), std::move(kept.left), total, reversed, 0, 0};
 }
 
 } // namespace
@@ -255,11 +266,12 @@ double CleanSketch::to_given(double s) const {
   s = curve.wrap(s);
   const int i = curve.segment_at(s), next = (i + 1) % curve.size();
   const double from = curve.s_at(i), to = next == 0 ? curve.length() : curve.s_at(next);
-  double ahead = given_s[next] - given_s[i];
-  if (ahead < 0) ahead += given_length;
-  // A cut loop lies between the two points: its length belongs to the crossing, not to the way there.
+  double ahead = given_s[next] - left_s[i];
+  // Less than nothing by rounding is not a whole round.
+  if (ahead < -0.5 * given_length) ahead += given_length;
+  ahead = std::max(ahead, 0.0);
   const double t = to > from ? std::clamp((s - from) / (to - from), 0.0, 1.0) : 0.0;
-  const double at = given_s[i] + t * std::min(ahead, to - from) + (t >= 1 ? ahead - std::min(ahead, to - from) : 0.0);
+  const double at = left_s[i] + t * ahead;
   return at >= given_length ? at - given_length : at;
 }
 
@@ -273,7 +285,7 @@ Result<CleanSketch> clean_sketch(const Points& given, double orientation) {
     return Error{"sketch.tangled", "The sketch crosses itself too often to be an outline; draw one closed line.", ""};
   const auto away = cut_loops(*cuts, total);
   if (!away) return away.error();
-  Measured kept = without_pieces(measured, *away);
+  Measured kept = without_pieces(measured, *away, total);
   const double around = kept.points.size() < 3 ? 0.0 : perimeter(kept.points);
   const double area = kept.points.size() < 3 ? 0.0 : std::abs(signed_area(kept.points));
   if (area < std::max(kLeastArea, kLeastFill * around * around / 16))

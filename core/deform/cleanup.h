@@ -14,9 +14,11 @@ namespace oversketch {
 /// direction or first point give the same curve.
 struct CleanSketch {
   ClosedCurve curve;
-  /// For each point of `curve`: arc length (px) along the given points, run in the direction of `curve`, from the given
-  /// first point.  Increasing but for one wrap.
+  /// For each point of `curve`: arc length (px) along the given points, run in the direction of `curve` from the given
+  /// first point, where it is come to, and where it is left.  They differ where a loop was cut.  Increasing but for one
+  /// wrap.
   std::vector<double> given_s;
+  std::vector<double> left_s;
   /// Length of the given curve, px, cut loops included.
   double given_length = 0;
   /// The given points ran the other way.

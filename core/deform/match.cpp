@@ -24,12 +24,19 @@ constexpr double kWide = 1.0;
 constexpr double kNear = 0.5;
 constexpr float kDirection = 0.02F;
 constexpr float kStrongDirection = 0.3F;
+/// Once the turn of the whole is known, directions tell more.
+constexpr float kTurnedDirection = 0.1F;
 /// A cost beyond which shape decides nothing.
 constexpr double kPoorMatch = 0.2;
 /// Runners-up differ from better matches by this in the mean, part of the length.
 constexpr double kDistinct = 0.04;
 /// How far a partner is moved to see how sharply shape decides, part of the length.
 constexpr double kCertaintyShift = 0.015;
+/// Costs nearer than this are equal, and at most so many of them are looked at.
+constexpr double kSymmetric = 0.008;
+constexpr int kMostSymmetric = 6;
+/// By how much coarse costs of equal matches differ.
+constexpr double kCoarseNoise = 0.03;
 /// Most steps of slope 6 and less that a piece may need on average.
 constexpr int kSteepest = 4;
 /// Paths of equal cost exist wherever curves are straight or symmetric: this decides by place, not by rounding.
@@ -65,12 +72,12 @@ PathBand band_for_shift(int shift) {
 /// All cyclic shifts at kCoarse samples: what each costs, and the path of any of them.
 class CoarseSearch {
 public:
-  CoarseSearch(const Profile& outline, const Profile& sketch, float direction_weight)
+  CoarseSearch(const Profile& outline, const Profile& sketch, DirectionTerm direction)
       : table_(kCoarse + 1, 2 * kCoarse + 1), costs_(kCoarse) {
     const auto a = outline.samples(kCoarse, 0, 1, kWide), b = sketch.samples(kCoarse, 0, 1, kWide);
     for (int i = 0; i <= kCoarse; ++i)
       for (int j = 0; j < kCoarse; ++j)
-        table_.row(i)[j] = shape_cost(a[i % kCoarse], b[j], direction_weight) + tie_break(i % kCoarse, j);
+        table_.row(i)[j] = shape_cost(a[i % kCoarse], b[j], direction) + tie_break(i % kCoarse, j);
     for (int i = 0; i <= kCoarse; ++i)
       for (int j = kCoarse; j <= 2 * kCoarse; ++j)
         table_.row(i)[j] = table_.row(i)[j - kCoarse];
@@ -78,13 +85,14 @@ public:
       costs_[k] = finder_.find(table_, band_for_shift(k), k, k + kCoarse) / static_cast<float>(kCoarse);
   }
 
-  /// Shifts that cost less than their neighbours, cheapest first.
+  /// Shifts that cost less than their neighbours, cheapest first; never none.
   std::vector<int> best_shifts() const {
     std::vector<int> shifts;
     for (int k = 0; k < kCoarse; ++k) {
       const float before = costs_[(k + kCoarse - 1) % kCoarse], after = costs_[(k + 1) % kCoarse];
       if (costs_[k] <= before && costs_[k] < after) shifts.push_back(k);
     }
+    if (shifts.empty()) shifts.push_back(0);
     std::stable_sort(shifts.begin(), shifts.end(), [&](int a, int b) { return costs_[a] < costs_[b]; });
     return shifts;
   }
@@ -127,14 +135,29 @@ std::size_t find_anchor(const Profile& outline, const Profile& sketch, const Rou
   for (std::size_t k = 0; k + 1 < route.u.size(); ++k) {
     const ShapeSample a = outline.sample(route.u[k], kWide), b = sketch.sample(route.v[k], kWide);
     const float bend = 1 - a.turning[2];
-    const float value = bend - 4 * shape_cost(a, b, 0);
+    const float value = bend - 4 * shape_cost(a, b, {});
     if (value > most + kTieBreak) most = value, best = k;
   }
   return best;
 }
 
+/// Directions compared as if the outline were turned like the sketch along this route: the turn itself costs nothing.
+DirectionTerm direction_along(const Profile& outline, const Profile& sketch, const Route& route) {
+  double c = 0, s = 0;
+  for (std::size_t k = 0; k + 1 < route.u.size(); ++k) {
+    const auto a = outline.sample(route.u[k], kWide).direction, b = sketch.sample(route.v[k], kWide).direction;
+    const double part = route.u[k + 1] - route.u[k];
+    c += part * (a[0] * b[0] + a[1] * b[1]);
+    s += part * (a[0] * b[1] - a[1] * b[0]);
+  }
+  const double norm = std::hypot(c, s);
+  if (!(norm > 0)) return {};
+  return {kTurnedDirection, static_cast<float>(c / norm), static_cast<float>(s / norm)};
+}
+
 /// Once more at kFine samples near a coarse route, cut open at its anchor, whose partner is free within a coarse step.
-Route refine(const Profile& outline, const Profile& sketch, const Route& coarse, float direction_weight) {
+Route refine(const Profile& outline, const Profile& sketch, const Route& coarse) {
+  const DirectionTerm direction = direction_along(outline, sketch, coarse);
   const std::size_t anchor = find_anchor(outline, sketch, coarse);
   const double u0 = coarse.u[anchor], v0 = coarse.v[anchor];
   const int width = static_cast<int>(kFineBand * kFine), free = 1 + kFine / kCoarse, margin = width + 1;
@@ -150,7 +173,7 @@ Route refine(const Profile& outline, const Profile& sketch, const Route& coarse,
     band.low.push_back(std::clamp(static_cast<int>(std::floor(centre)) - width, 0, columns - 1));
     band.high.push_back(std::clamp(static_cast<int>(std::ceil(centre)) + width, 0, columns - 1));
     for (int j = band.low[i]; j <= band.high[i]; ++j)
-      table.row(i)[j] = shape_cost(a[i], b[j], direction_weight) + tie_break(i % kFine, j % kFine);
+      table.row(i)[j] = shape_cost(a[i], b[j], direction) + tie_break(i % kFine, j % kFine);
   }
   PathFinder finder;
   float best = std::numeric_limits<float>::infinity();
@@ -180,29 +203,55 @@ double route_distance(const Route& a, const Route& b) {
   return sum / kCoarse;
 }
 
+/// How much a route turns the curve, 0…2: the mean of 1 − cos between the directions.
+double measure_turn(const Profile& outline, const Profile& sketch, const Route& route) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < route.u.size(); ++k) {
+    const ShapeSample a = outline.sample(route.u[k], kWide), b = sketch.sample(route.v[k], kWide);
+    const double along = a.direction[0] * b.direction[0] + a.direction[1] * b.direction[1];
+    sum += (1 - along) * (route.u[k + 1] - route.u[k]);
+  }
+  return sum;
+}
+
+/// Cheapest first; among those that cost nearly as little as the cheapest, the one that turns least comes first: they
+/// are the ways in which a symmetric shape fits itself, and their costs differ by sampling alone.
+void sort_routes(const Profile& outline, const Profile& sketch, std::vector<Route>& routes) {
+  std::stable_sort(routes.begin(), routes.end(), [](const Route& a, const Route& b) { return a.cost < b.cost; });
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < routes.size() && routes[k].cost < routes.front().cost + kSymmetric; ++k) {
+    const double turn = measure_turn(outline, sketch, routes[k]);
+    if (turn < least - kSymmetric) least = turn, best = k;
+  }
+  std::rotate(routes.begin(), routes.begin() + static_cast<std::ptrdiff_t>(best),
+              routes.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+}
+
 std::optional<std::vector<Route>> find_routes(const Profile& outline, const Profile& sketch, int count,
                                               const Watch& watch) {
-  float weight = kDirection;
-  std::optional<CoarseSearch> search(std::in_place, outline, sketch, weight);
+  DirectionTerm direction{kDirection};
+  std::optional<CoarseSearch> search(std::in_place, outline, sketch, direction);
   if (watch.stopped()) return std::nullopt;
   auto shifts = search->best_shifts();
-  if (shifts.empty() || search->cost(shifts.front()) > kPoorMatch) {
-    weight = kStrongDirection;
-    search.emplace(outline, sketch, weight);
+  if (search->cost(shifts.front()) > kPoorMatch) {
+    direction.weight = kStrongDirection;
+    search.emplace(outline, sketch, direction);
     shifts = search->best_shifts();
   }
-  if (shifts.empty()) shifts.push_back(0);
   std::vector<Route> routes;
+  const double limit = search->cost(shifts.front()) + kCoarseNoise;
   for (const int shift : shifts) {
     if (watch.stopped()) return std::nullopt;
-    if (static_cast<int>(routes.size()) >= count) break;
+    const auto found = static_cast<int>(routes.size());
+    if (found >= std::max(count, kMostSymmetric) || (found >= count && search->cost(shift) > limit)) break;
     const Route coarse = search->route(shift);
     const auto near = [&](const Route& other) { return route_distance(coarse, other) < kDistinct; };
     if (std::any_of(routes.begin(), routes.end(), near)) continue;
-    routes.push_back(refine(outline, sketch, coarse, weight));
+    routes.push_back(refine(outline, sketch, coarse));
   }
-  std::stable_sort(routes.begin(), routes.end(),
-                   [](const Route& a, const Route& b) { return a.cost < b.cost - kTieBreak; });
+  sort_routes(outline, sketch, routes);
+  routes.resize(std::min(routes.size(), static_cast<std::size_t>(count)));
   return routes;
 }
 
@@ -220,7 +269,7 @@ void match_piece(const Profile& outline, const Profile& sketch, double u0, doubl
     band.low.push_back(0);
     band.high.push_back(columns);
     for (int j = 0; j <= columns; ++j)
-      table.row(i)[j] = shape_cost(a[i], b[j], kDirection) + tie_break(i, j);
+      table.row(i)[j] = shape_cost(a[i], b[j], {}) + tie_break(i, j);
   }
   PathFinder finder;
   const float cost = finder.find(table, band, 0, columns);
@@ -235,9 +284,9 @@ void match_piece(const Profile& outline, const Profile& sketch, double u0, doubl
 /// What moving the partner either way costs, the smaller of both.
 double measure_certainty(const Profile& outline, const Profile& sketch, double u, double v) {
   const ShapeSample own = outline.sample(u, kNear);
-  const float here = shape_cost(own, sketch.sample(v, kNear), 0);
-  const float before = shape_cost(own, sketch.sample(v - kCertaintyShift, kNear), 0);
-  const float after = shape_cost(own, sketch.sample(v + kCertaintyShift, kNear), 0);
+  const float here = shape_cost(own, sketch.sample(v, kNear), {});
+  const float before = shape_cost(own, sketch.sample(v - kCertaintyShift, kNear), {});
+  const float after = shape_cost(own, sketch.sample(v + kCertaintyShift, kNear), {});
   return std::max(0.0F, std::min(before, after) - here);
 }
 
@@ -280,43 +329,6 @@ Match match_pinned(const MatchSource& source, const ClosedCurve& sketch, const P
   return match;
 }
 
-/// Rounds of the sketch that the pins make in this order, in units of its length: 1 when they can all hold.
-double count_rounds(const ClosedCurve& sketch, const std::vector<PinPlace>& pins, const std::vector<int>& order) {
-  double sum = 0;
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sum += sketch.forward(pins[order[k]].sketch_s, pins[order[(k + 1) % order.size()]].sketch_s);
-  return sum / sketch.length();
-}
-
-std::optional<Error> find_contradiction(const ClosedCurve& outline, const ClosedCurve& sketch,
-                                        const std::vector<PinPlace>& pins) {
-  const auto gap = [](const ClosedCurve& curve, double a, double b) {
-    return std::min(curve.forward(a, b), curve.forward(b, a)) / curve.length();
-  };
-  constexpr double kSame = 1e-9;
-  std::vector<int> order;
-  for (int i = 0; i < static_cast<int>(pins.size()); ++i) {
-    for (int j = 0; j < i; ++j) {
-      const bool same_outline = gap(outline, pins[i].outline_s, pins[j].outline_s) < kSame;
-      const bool same_sketch = gap(sketch, pins[i].sketch_s, pins[j].sketch_s) < kSame;
-      if (same_outline != same_sketch) return pins_cross(j, i);
-    }
-    order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pins[a].outline_s < pins[b].outline_s; });
-  if (pins.size() < 3 || count_rounds(sketch, pins, order) < 1.5) return std::nullopt;
-  std::pair<int, int> named{order[0], order[1]};
-  double closest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    auto exchanged = order;
-    std::swap(exchanged[k], exchanged[(k + 1) % order.size()]);
-    const int a = order[k], b = order[(k + 1) % order.size()];
-    const double apart = gap(sketch, pins[a].sketch_s, pins[b].sketch_s);
-    if (count_rounds(sketch, pins, exchanged) < 1.5 && apart < closest) closest = apart, named = {a, b};
-  }
-  return pins_cross(std::min(named.first, named.second), std::max(named.first, named.second));
-}
-
 } // namespace
 
 namespace {
@@ -353,15 +365,6 @@ double Match::certainty_at(double s) const {
 
 MatchSource::MatchSource(const ClosedCurve& outline)
     : outline_(outline), profile_(std::make_shared<const Profile>(outline)) {}
-
-Result<std::vector<PinPlace>> place_pins(const ClosedCurve& outline, const ClosedCurve& sketch,
-                                         std::span<const PinPair> pins) {
-  std::vector<PinPlace> places;
-  for (const PinPair& pin : pins)
-    places.push_back({outline.nearest(pin.outline).s, sketch.nearest(pin.sketch).s});
-  if (const auto error = find_contradiction(outline, sketch, places)) return *error;
-  return places;
-}
 
 Result<std::vector<Match>> match_curves(const MatchSource& source, const ClosedCurve& sketch,
                                         std::span<const PinPlace> pins, const MatchOptions& options,

@@ -69,16 +69,18 @@ Result<std::vector<PinPlace>> place_pins(const ClosedCurve& outline, const Close
 /// A_k(u) at three scales (1.2, 3, 7 % of the length, from averaged points of the arcs before and after) and its
 /// direction T(u). Minimises the mean over the path of
 ///   Σ_k w_k (1 − cos(A_k − B_k)) + w_T (1 − cos(T_A − T_B)) + 0.15 log²(slope),   w = 0.5, 1, 1, w_T = 0.02,
-/// by dynamic programming over steps of slope 1/6…6, over all cyclic shifts at 96 samples, then again at 320 samples
-/// near the best.  w_T favours no rotation where shapes are symmetric; where no match is good (cost > 0.2) it is raised
-/// to 0.3. Pins split the curves into pieces, matched one by one, and are met exactly.
+/// by dynamic programming over steps of slope 1/6…6, over all cyclic shifts at 96 samples. w_T favours no rotation
+/// where shapes are symmetric; where no match is good (cost > 0.2) it is raised to 0.3. Near the best shifts the same
+/// again at 320 samples and half the scales, directions compared after the turn that the coarse match makes, w_T = 0.1:
+/// the turn of the whole costs nothing where places are decided. Of matches that cost the same the one that turns least
+/// is best. Pins split the curves into pieces, matched one by one without regard to direction, and are met exactly.
 ///
 /// @param sketch  runs like the outline; target pixels, any scale.
 /// @param pins    places by arc length, as place_pins() gives them.
 /// @returns best first.  Runners-up differ from each better one by more than 4 % of the length in the mean; fewer than
 ///          asked for when there are no more, none beside the best when there are pins.
 /// @errors kCancelled.
-/// @cost about 3 ms cold, 6 ms where no match is good.  @threads pure.
+/// @cost about 4 ms, 6 ms where no match is good.  @threads pure.
 Result<std::vector<Match>> match_curves(const MatchSource& source, const ClosedCurve& sketch,
                                         std::span<const PinPlace> pins, const MatchOptions& options,
                                         const Watch& watch);

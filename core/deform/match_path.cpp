@@ -17,7 +17,6 @@ struct Step {
   float penalty = 0;
 };
 
-constexpr int kLongestStep = 6;
 constexpr double kStretchPenalty = 0.15;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 

@@ -39,14 +39,22 @@ private:
   Points sums_;
 };
 
-/// Local cost of two samples without the direction term, >= 0.
-inline float shape_cost(const ShapeSample& a, const ShapeSample& b, float direction_weight) {
+/// How much the direction counts, and by how much (cos, sin) the outline is turned before it is compared.
+struct DirectionTerm {
+  float weight = 0;
+  float cosine = 1;
+  float sine = 0;
+};
+
+/// Local cost of a sample of the outline and one of the sketch, >= 0.
+inline float shape_cost(const ShapeSample& outline, const ShapeSample& sketch, const DirectionTerm& term) {
   constexpr float whole = static_cast<float>(kTurningWeights[0] + kTurningWeights[1] + kTurningWeights[2]);
   float same = 0;
   for (std::size_t k = 0; k < 6; ++k)
-    same += a.turning[k] * b.turning[k];
-  const float along = a.direction[0] * b.direction[0] + a.direction[1] * b.direction[1];
-  return (whole - same) + direction_weight * (1 - along);
+    same += outline.turning[k] * sketch.turning[k];
+  const auto& a = outline.direction;
+  const float x = term.cosine * a[0] - term.sine * a[1], y = term.sine * a[0] + term.cosine * a[1];
+  return (whole - same) + term.weight * (1 - (x * sketch.direction[0] + y * sketch.direction[1]));
 }
 
 } // namespace oversketch

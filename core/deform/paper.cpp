@@ -228,14 +228,14 @@ Result<PaperSolution> solve_paper(const PaperSystem& system, const ClosedCurve& 
   for (int iteration = 0;; ++iteration) {
     if (watch.stopped()) return cancelled();
     watch.report(static_cast<double>(iteration) / (options.iterations + 1), "iterations");
-    const HandleSystem::Evaluation now = system.handles().evaluate(handles.h);
+    const HandleSystem::Slope now = system.handles().slope(handles.h);
     out.energies.push_back(now.energy);
     const bool last = iteration == options.iterations;
+    if (last || options.keep_iterates) out.positions = to_points(system.handles().place(handles.h));
     if (options.keep_iterates) {
-      out.iterates.push_back({to_points(now.positions), to_points(handles.h), to_points(now.gradient), now.energy});
+      out.iterates.push_back({out.positions, to_points(handles.h), to_points(now.gradient), now.energy});
     }
     if (last) {
-      out.positions = to_points(now.positions);
       out.gradients = to_points(now.gradient);
       break;
     }

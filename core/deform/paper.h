@@ -29,7 +29,8 @@ public:
   /// @cost stages "matrix", "symbolic", "factor" of watch.times.
   [[nodiscard]] static Result<PaperSystem> make(std::shared_ptr<const RegionMesh> region, double handle_weight,
                                                 const Watch& watch);
-  /// The same region with another ω: one numeric factorization, nothing else.
+  /// The same region with another ω: one numeric factorization, nothing else; in the reduced form (HandleForm) a dense
+  /// one of the handles alone.
   [[nodiscard]] Result<PaperSystem> with_handle_weight(double handle_weight, const Watch& watch) const;
 
   const RegionMesh& region() const { return *region_; }
@@ -109,7 +110,7 @@ struct PaperSolution {
 /// @errors deform.iterations; deform.pin-not-finite; deform.pins-cross; deform.pins-too-close (two pins want one
 /// vertex;
 ///   `where` as in pins_cross()); sketch.no-area (less than 0.1 % of the square on its perimeter); cancelled.
-/// @cost an iteration is two back-substitutions and one nearest point a handle.  Stages "start", "iterations".
+/// @cost an iteration is HandleSystem::slope() and one nearest point a handle.  Stages "start", "iterations".
 /// @threads a pure function.
 [[nodiscard]] Result<PaperSolution> solve_paper(const PaperSystem& system, const ClosedCurve& sketch,
                                                 std::span<const PinPair> pins, const PaperOptions& options,

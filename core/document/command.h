@@ -77,10 +77,29 @@ struct RegionSet {
   Points outline;
   bool operator==(const RegionSet&) const = default;
 };
+/// Which of the two parts between a stroke's ends it replaces.
+enum class StrokeSide { kAuto, kOther };
+
+struct RegionEdit {
+  LayerRef layer;
+  Points stroke;
+  StrokeSide side = StrokeSide::kAuto;
+  double tolerance_px = 10;
+  bool sharp = false;
+  bool operator==(const RegionEdit&) const = default;
+};
 struct SketchSet {
   LayerRef layer;
   Points curve;
   bool operator==(const SketchSet&) const = default;
+};
+struct SketchEdit {
+  LayerRef layer;
+  Points stroke;
+  StrokeSide side = StrokeSide::kAuto;
+  double tolerance_px = 10;
+  bool sharp = false;
+  bool operator==(const SketchEdit&) const = default;
 };
 struct SketchReset {
   LayerRef layer;
@@ -128,9 +147,9 @@ struct LayerSet {
 };
 
 /// One change of a Document, as plain data: undoable, printable, parsable.
-using Command =
-    std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, LayerSelect, LayerRename, LayerOrder, RegionSet,
-                 SketchSet, SketchReset, PinAdd, PinMove, PinRemove, LayerMove, LayerTransform, LayerSet>;
+using Command = std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, LayerSelect, LayerRename, LayerOrder,
+                             RegionSet, RegionEdit, SketchSet, SketchEdit, SketchReset, PinAdd, PinMove, PinRemove,
+                             LayerMove, LayerTransform, LayerSet>;
 
 /// The document after the command.  Pure: the same in, the same out; when it fails there is nothing to roll back.
 ///
@@ -138,10 +157,11 @@ using Command =
 /// must lie in its picture, pins must follow each other in the same order on outline and sketch.  An image must have
 /// been loaded into its ImageRef (CHECK), "@target" apart.
 ///
-/// @errors those of check_closed_curve, and document.none, document.size, layer.unknown, layer.none-selected,
-/// layer.index,
-///   layer.no-region, region.outside-source, pin.unknown, pin.same-place, pin.order, pin.nothing-to-move, value.range,
-///   value.missing, command.nothing-to-do, transform.range; the document given is unchanged, being const.
+/// @errors those of check_closed_curve and oversketch, and document.none, document.size, layer.unknown,
+/// layer.none-selected, layer.index,
+///   layer.no-region, region.outside-source, sketch.outside-target, pin.unknown, pin.same-place, pin.order,
+///   pin.nothing-to-move, value.range, value.missing, command.nothing-to-do, transform.range; the document given is
+///   unchanged, being const.
 /// @cost O(points); no image is touched.
 Result<Document> apply(const Document& document, const Command& command);
 

@@ -94,6 +94,28 @@ struct Spec<RegionSet> {
   }
 };
 
+template <class C>
+constexpr auto stroke_fields(std::string_view of, std::string_view unit) {
+  return std::make_tuple(
+      Field{"layer", &C::layer, kLayerHelp}, Field{"stroke", &C::stroke, of, unit},
+      Field{"side", &C::side, "which part between the stroke's ends is replaced: the likelier one, or the other", "",
+            -HUGE_VAL, HUGE_VAL, true},
+      Field{"tolerance_px", &C::tolerance_px, "how near to the curve an end must be; also the scale of the joins", unit,
+            0.01, 10000, true},
+      Field{"sharp", &C::sharp, "corners instead of smooth joins", "", -HUGE_VAL, HUGE_VAL, true});
+}
+
+template <>
+struct Spec<RegionEdit> {
+  static constexpr std::string_view name = "region.edit", label = "Redraw outline";
+  static constexpr std::string_view help =
+      "Draws a part of the outline over again.  The rest stays as it is, to the bit; pins on the part go to the "
+      "nearest place of the new one.";
+  static constexpr auto fields() {
+    return stroke_fields<RegionEdit>("open; begins and ends near the outline", "source px");
+  }
+};
+
 template <>
 struct Spec<SketchSet> {
   static constexpr std::string_view name = "sketch.set", label = "Sketch";
@@ -101,6 +123,17 @@ struct Spec<SketchSet> {
   static constexpr auto fields() {
     return std::make_tuple(Field{"layer", &SketchSet::layer, kLayerHelp},
                            Field{"curve", &SketchSet::curve, "closed, simple; may leave the picture", "target px"});
+  }
+};
+
+template <>
+struct Spec<SketchEdit> {
+  static constexpr std::string_view name = "sketch.edit", label = "Oversketch";
+  static constexpr std::string_view help =
+      "Draws a part of the sketch over again.  The rest stays as it is, to the bit; pins on the part go to the "
+      "nearest place of the new one.";
+  static constexpr auto fields() {
+    return stroke_fields<SketchEdit>("open; begins and ends near the sketch", "target px");
   }
 };
 
@@ -175,9 +208,9 @@ struct Spec<LayerSet> {
   static constexpr auto fields() {
     return std::make_tuple(
         Field{"layer", &LayerSet::layer, kLayerHelp},
-        Field{"method", &LayerSet::method, "how the region is deformed; paper from the start"},
+        Field{"method", &LayerSet::method, "how the region is deformed; flipfree from the start"},
         Field{"cell_px", &LayerSet::cell_px, "side of a mesh cell; 10 from the start", "source px", 0.1, 10000},
-        Field{"stiffness", &LayerSet::stiffness, "against change of area, method flipfree; 0.5 from the start", "",
+        Field{"stiffness", &LayerSet::stiffness, "against change of area, method flipfree; 0.15 from the start", "",
               0.001, 1000},
         Field{"follow", &LayerSet::follow, "how closely the sketch is followed, method flipfree; 20 from the start", "",
               0.01, 10000},

@@ -74,9 +74,9 @@ enum class CloneDomain { kEncoded, kLinear, kLog };
 
 /// What `layer.set` changes; meanings, units and ranges stand in the command table (commands.cpp).
 struct LayerSettings {
-  DeformMethod method = DeformMethod::kPaper;
+  DeformMethod method = DeformMethod::kFlipfree;
   double cell_px = 10;
-  double stiffness = 0.5;
+  double stiffness = 0.15;
   double follow = 20;
   double handle_weight = 1;
   int iterations = 50;

@@ -35,6 +35,12 @@ Names<CloneDomain> names_of(CloneDomain) {
   return names;
 }
 
+Names<StrokeSide> names_of(StrokeSide) {
+  static constexpr std::pair<StrokeSide, std::string_view> names[] = {{StrokeSide::kAuto, "auto"},
+                                                                      {StrokeSide::kOther, "other"}};
+  return names;
+}
+
 template <class E>
 std::vector<std::string_view> words_of(E) {
   std::vector<std::string_view> words;
@@ -164,6 +170,9 @@ Mismatch read_value(const Json& json, CloneMode& value) {
 Mismatch read_value(const Json& json, CloneDomain& value) {
   return read_word(json, value);
 }
+Mismatch read_value(const Json& json, StrokeSide& value) {
+  return read_word(json, value);
+}
 
 Json write_value(double value) {
   // Whole numbers are printed as such: 40, not 40.0.  -0 and huge values keep their own form.
@@ -214,6 +223,9 @@ Json write_value(CloneMode value) {
 Json write_value(CloneDomain value) {
   return write_word(value);
 }
+Json write_value(StrokeSide value) {
+  return write_word(value);
+}
 
 void describe_value(double, FieldInfo& row) {
   row.type = "number";
@@ -255,6 +267,9 @@ void describe_value(CloneMode value, FieldInfo& row) {
   row.type = "choice", row.choices = words_of(value);
 }
 void describe_value(CloneDomain value, FieldInfo& row) {
+  row.type = "choice", row.choices = words_of(value);
+}
+void describe_value(StrokeSide value, FieldInfo& row) {
   row.type = "choice", row.choices = words_of(value);
 }
 

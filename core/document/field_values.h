@@ -31,6 +31,7 @@ Mismatch read_value(const Json& json, PinId& value);
 Mismatch read_value(const Json& json, DeformMethod& value);
 Mismatch read_value(const Json& json, CloneMode& value);
 Mismatch read_value(const Json& json, CloneDomain& value);
+Mismatch read_value(const Json& json, StrokeSide& value);
 
 Json write_value(double value);
 Json write_value(int value);
@@ -46,6 +47,7 @@ Json write_value(PinId value);
 Json write_value(DeformMethod value);
 Json write_value(CloneMode value);
 Json write_value(CloneDomain value);
+Json write_value(StrokeSide value);
 
 void describe_value(double value, FieldInfo& row);
 void describe_value(int value, FieldInfo& row);
@@ -61,6 +63,7 @@ void describe_value(PinId value, FieldInfo& row);
 void describe_value(DeformMethod value, FieldInfo& row);
 void describe_value(CloneMode value, FieldInfo& row);
 void describe_value(CloneDomain value, FieldInfo& row);
+void describe_value(StrokeSide value, FieldInfo& row);
 
 template <class T>
 Mismatch read_value(const Json& json, std::optional<T>& value) {

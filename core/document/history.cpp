@@ -41,7 +41,7 @@ void History::push(Document after, const Command& command, std::string label) {
     entries_.resize(std::min(entries_.size(), cursor_ + 1));
     if (saved_ && *saved_ >= entries_.size()) saved_.reset();
   }
-  entries_.push_back({std::move(after), command, std::move(label)});
+  entries_.push_back({next_id_++, std::move(after), command, std::move(label)});
   cursor_ = entries_.size() - 1;
   trim();
 }

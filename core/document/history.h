@@ -5,6 +5,7 @@
 #include "core/document/document.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ namespace oversketch {
 class History {
 public:
   struct Entry {
+    /// Increases from entry to entry and is never used again.
+    std::uint64_t id = 0;
     Document document;
     /// What led here from the entry before.
     Command command;
@@ -66,6 +69,7 @@ private:
   void trim();
 
   Limits limits_;
+  std::uint64_t next_id_ = 1;
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
   /// Index of the saved entry, 0 in a new document; none when it was dropped.

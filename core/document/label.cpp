@@ -98,7 +98,8 @@ std::string label_of(const Command& command, const Document& before, const Docum
       text += name_of_layer(c.layer, before);
     else
       text += detail(c, after);
-    if constexpr (std::is_same_v<C, RegionSet> || std::is_same_v<C, SketchSet> || std::is_same_v<C, SketchReset>)
+    if constexpr (std::is_same_v<C, RegionSet> || std::is_same_v<C, SketchSet> || std::is_same_v<C, SketchReset> ||
+                  std::is_same_v<C, RegionEdit> || std::is_same_v<C, SketchEdit>)
       text += pins_dropped(before, after);
     return text;
   };

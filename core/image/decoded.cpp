@@ -119,8 +119,9 @@ std::size_t Decoded::row_bytes() const {
 }
 
 Decoded make_decoded(int width, int height, int channels, Samples samples) {
-  Decoded d{width, height, channels, samples, 1, nullptr};
-  d.data = std::make_unique_for_overwrite<std::byte[]>(d.row_bytes() * static_cast<std::size_t>(height));
+  Decoded d{.width = width, .height = height, .channels = channels, .samples = samples};
+  d.data = PixelMemory(new std::byte[d.row_bytes() * static_cast<std::size_t>(height)],
+                       [](void* pixels) { delete[] static_cast<std::byte*>(pixels); });
   return d;
 }
 

@@ -16,6 +16,9 @@ namespace oversketch {
 
 enum class Samples { kU8, kU16, kFloat };
 
+/// Pixels and how their memory is given back: stb_image has its own way.
+using PixelMemory = std::unique_ptr<std::byte[], void (*)(void*)>;
+
 /// Pixels as a file stores them: rows without padding, 1 (grey), 2 (grey, alpha), 3 or 4 samples a pixel in the
 /// machine's byte order; kFloat is already encoded (1 is the 8-bit level 255).
 struct Decoded {
@@ -25,7 +28,7 @@ struct Decoded {
   Samples samples = Samples::kU8;
   /// EXIF orientation, 1…8: how stored rows and columns lie on the screen.
   int orientation = 1;
-  std::unique_ptr<std::byte[]> data;
+  PixelMemory data{nullptr, nullptr};
 
   std::size_t row_bytes() const;
   std::byte* row(int y) { return data.get() + static_cast<std::size_t>(y) * row_bytes(); }

@@ -14,14 +14,16 @@ namespace oversketch {
 /// Largest picture that is opened, pixels (200 megapixels: 3.2 GB as float RGBA).
 inline constexpr std::int64_t kMaxPixels = 200'000'000;
 
-/// Reads PNG (all kinds; 16 bits at 16 bits), JPEG (baseline and progressive, grey, colour, CMYK), BMP (uncompressed),
-/// TGA (all kinds) and Radiance HDR; what a file is, its first bytes say, not its name.
+/// Reads PNG (all kinds; 16 bits at 16 bits), JPEG (baseline and progressive, grey, colour, CMYK), BMP (uncompressed,
+/// 1, 4, 8, 16, 24 or 32 bits), TGA (all kinds of pixels) and Radiance HDR (rows from the top); what a file is, its
+/// first bytes say, not its name.
 ///
 /// - The EXIF orientation (1–8) of JPEG and PNG is applied; hostile or senseless EXIF counts as none.
 /// - Values are taken as sRGB: colour profiles and PNG's gamma are not looked at.  CMYK is turned into RGB without a
 ///   profile, r = (1 − c)(1 − k).  HDR's linear values are encoded with the sRGB curve, continued above 1; its exposure
 ///   lines are not looked at.
-/// - Alpha is kept straight.  TGA has alpha where its header counts alpha bits, BMP where its header has a mask for it.
+/// - Alpha is kept straight.  A TGA of 32 bits (grey: 16) has alpha where its header counts alpha bits, a BMP where
+///   its header (Windows 95's or later) has a mask for it.
 /// - Of an animated PNG the still picture is read; of several JPEGs in one file the first.
 /// - Nothing is filled in: a picture that is cut short, or a PNG with a wrong checksum anywhere, is an error.  JPEG has
 ///   no checksums, so that damage which still decodes cannot be seen.  What follows the picture's end is not read; the

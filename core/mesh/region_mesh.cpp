@@ -92,12 +92,18 @@ std::optional<CellPoint> RegionMesh::locate(Point p) const {
   return place(c.chains[c.chain_at(nearest.s)].copy, p);
 }
 
-Result<RegionMesh> make_region_mesh(const ClosedCurve& outline, double cell_px, MeshKind kind, const Watch& watch) {
+Result<void> check_cell_size(const ClosedCurve& outline, double cell_px) {
   if (!std::isfinite(cell_px) || cell_px <= 0)
     return error("mesh.cell", "The cell size must be a positive number of pixels.");
-  const Box box = bounds(outline.points());
-  if (cell_px > std::max(box.size().x, box.size().y))
+  const Point size = bounds(outline.points()).size();
+  if (cell_px > std::max(size.x, size.y))
     return error("mesh.cell-too-large", "The cells are larger than the region; choose smaller ones.");
+  return {};
+}
+
+Result<RegionMesh> make_region_mesh(const ClosedCurve& outline, double cell_px, MeshKind kind, const Watch& watch) {
+  if (auto sound = check_cell_size(outline, cell_px); !sound) return sound.error();
+  const Box box = bounds(outline.points());
   if (outline.signed_area() == 0)
     return Error{"mesh.not-simple", "The outline holds no area; draw it without a crossing.", "outline"};
   StageTimer timer(watch.times, "mesh");

@@ -73,6 +73,10 @@ private:
   std::shared_ptr<const Data> data_;
 };
 
+/// Whether cells of that size suit a region.
+/// @errors mesh.cell (not finite, or not positive); mesh.cell-too-large (larger than the longer side of the outline's box).
+Result<void> check_cell_size(const ClosedCurve& outline, double cell_px);
+
 /// Meshes the inside of `outline`.
 ///
 /// @param outline  simple (as check_closed_curve wants it), either orientation; source pixels.

@@ -82,12 +82,24 @@ Result<DeformCase> case_from(const Json& object) {
   return given;
 }
 
+Json places_json(const DeformedCase& solved) {
+  Json json;
+  json["positions"] = write_value(solved.deformation.outline);
+  json["correspondence"] = solved.deformation.correspondence;
+  return json;
+}
+
 Json grid_json(const Deformation& deformation) {
   Json grid;
   grid["source"] = write_value(deformation.mesh->vertices);
   grid["deformed"] = write_value(deformation.positions);
   grid["cells"] = deformation.mesh->cells;
   return grid;
+}
+
+DeformedCase measured(const DeformCase& given, Deformation deformation) {
+  Metrics metrics = measure(deformation, ClosedCurve(given.sketch), given.truth);
+  return {std::move(deformation), std::move(metrics)};
 }
 
 } // namespace
@@ -121,18 +133,39 @@ Result<DeformedCase> solve_case(const DeformCase& given, const DeformOptions& op
   DeformCounts counts;
   const auto system = DeformSystem::make(given.outline, options, nullptr, counts, watch);
   if (!system) return system.error();
-  auto deformation = system->deform(given.sketch, given.pins, options, counts, watch);
+  auto deformation = system->deform(given.sketch, given.pins, options, nullptr, counts, watch);
   if (!deformation) return deformation.error();
-  Metrics metrics = measure(*deformation, ClosedCurve(given.sketch), given.truth);
-  return DeformedCase{std::move(*deformation), std::move(metrics)};
+  return measured(given, std::move(*deformation));
 }
 
-Json result_json(const DeformedCase& solved) {
-  Json json;
-  json["positions"] = write_value(solved.deformation.outline);
-  json["correspondence"] = solved.deformation.correspondence;
-  json["grid"] = grid_json(solved.deformation);
-  json["metrics"] = metrics_json(solved.metrics);
+Result<std::vector<DeformedCase>> solve_case_alternatives(const DeformCase& given, const DeformOptions& options,
+                                                          int count, const Watch& watch) {
+  CHECK(count >= 1, "there is at least the best match");
+  DeformCounts counts;
+  const auto system = DeformSystem::make(given.outline, options, nullptr, counts, watch);
+  if (!system) return system.error();
+  auto deformations = system->alternatives(given.sketch, given.pins, options, count, counts, watch);
+  if (!deformations) return deformations.error();
+  std::vector<DeformedCase> solved;
+  for (Deformation& deformation : *deformations)
+    solved.push_back(measured(given, std::move(deformation)));
+  return solved;
+}
+
+Json result_json(std::span<const DeformedCase> solved, bool with_alternatives) {
+  CHECK(!solved.empty(), "a result to print");
+  const DeformedCase& best = solved.front();
+  Json json = places_json(best);
+  json["grid"] = grid_json(best.deformation);
+  json["metrics"] = metrics_json(best.metrics);
+  if (!with_alternatives) return json;
+  json["alternatives"] = Json::array();
+  for (const DeformedCase& other : solved.subspan(1)) {
+    Json alternative = places_json(other);
+    alternative["metrics"] = metrics_json(other.metrics);
+    alternative["match_cost"] = alternative["metrics"]["match_cost"];
+    json["alternatives"].push_back(std::move(alternative));
+  }
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,15 @@ struct DeformedCase {
 /// Solves one case from nothing.
 Result<DeformedCase> solve_case(const DeformCase& given, const DeformOptions& options, const Watch& watch);
 
-/// The contract's RESULT.json.
-nlohmann::ordered_json result_json(const DeformedCase& solved);
+/// The same with runners-up of the match, each solved: the best first, `count` ≥ 1 (CHECK) at most.  Symmetric shapes
+/// have such, unlike ones too; with pins, and with the paper's methods, there is the best alone.
+Result<std::vector<DeformedCase>> solve_case_alternatives(const DeformCase& given, const DeformOptions& options,
+                                                          int count, const Watch& watch);
+
+/// The contract's RESULT.json of the first; of the others "alternatives": [{"positions", "correspondence", "metrics",
+/// "match_cost"}…].
+/// @param solved  at least one (CHECK).
+/// @param with_alternatives  whether the key "alternatives" is there, even where there are none.
+nlohmann::ordered_json result_json(std::span<const DeformedCase> solved, bool with_alternatives = false);
 
 } // namespace oversketch

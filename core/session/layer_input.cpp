@@ -6,6 +6,7 @@ namespace {
 Method method_of(DeformMethod method) {
   switch (method) {
   case DeformMethod::kFlipfree:
+    return Method::kFlipfree;
   case DeformMethod::kPaper:
     return Method::kPaper;
   case DeformMethod::kInitial:
@@ -55,6 +56,8 @@ DeformOptions deform_options(const Layer& layer) {
   DeformOptions options;
   options.method = method_of(layer.settings.method);
   options.cell_px = layer.settings.cell_px;
+  options.stiffness = layer.settings.stiffness;
+  options.follow = layer.settings.follow;
   options.handle_weight = layer.settings.handle_weight;
   options.iterations = layer.settings.iterations;
   return options;
@@ -77,20 +80,28 @@ std::vector<PinPair> pin_pairs(const Layer& layer) {
   return pairs;
 }
 
-Hash mesh_key(const Layer& layer) {
+Hash solver_key(const Layer& layer) {
+  const bool flipfree = layer.settings.method == DeformMethod::kFlipfree;
   Hasher hasher;
   add_points(hasher, layer.outline);
-  return hasher.add(layer.settings.cell_px).finish();
+  hasher.add(flipfree);
+  // The paper is solved on the mesh that is drawn, flipfree on one of its own.
+  if (!flipfree) hasher.add(layer.settings.cell_px);
+  return hasher.finish();
 }
 
 Hash system_key(const Layer& layer) {
-  return Hasher().add(mesh_key(layer)).add(layer.settings.handle_weight).finish();
+  return Hasher().add(solver_key(layer)).add(layer.settings.cell_px).add(layer.settings.handle_weight).finish();
 }
 
-Hash deformation_key(const Layer& layer) {
+Hash solution_key(const Layer& layer) {
   const DeformOptions options = deform_options(layer);
   Hasher hasher;
-  hasher.add(system_key(layer)).add(options.method);
+  hasher.add(solver_key(layer)).add(options.method);
+  if (options.method == Method::kFlipfree)
+    hasher.add(options.stiffness).add(options.follow);
+  else
+    hasher.add(options.handle_weight);
   if (options.method == Method::kPaper) hasher.add(options.iterations);
   add_points(hasher, layer.sketch);
   for (const Pin& pin : layer.pins)
@@ -98,10 +109,15 @@ Hash deformation_key(const Layer& layer) {
   return hasher.finish();
 }
 
-Hash shape_key(const Layer& layer) {
+bool is_same_solve(const Layer& a, const Layer& b) {
+  const bool by_value = a.outline == b.outline && a.sketch == b.sketch && a.pins == b.pins;
+  return by_value && solution_key(a) == solution_key(b) && system_key(a) == system_key(b);
+}
+
+Hash shape_key(const Layer& layer, const Hash& deformation) {
   const Placement& p = layer.placement;
   return Hasher()
-      .add(deformation_key(layer))
+      .add(deformation)
       .add(layer.source.image.content_hash())
       .add(p.factor.real())
       .add(p.factor.imag())
@@ -110,10 +126,10 @@ Hash shape_key(const Layer& layer) {
       .finish();
 }
 
-Hash blend_key(const Layer& layer) {
+Hash blend_key(const Layer& layer, const Hash& deformation) {
   const LayerSettings& s = layer.settings;
   return Hasher()
-      .add(shape_key(layer))
+      .add(shape_key(layer, deformation))
       .add(layer.placement.dx)
       .add(layer.placement.dy)
       .add(s.mode)

@@ -17,10 +17,21 @@ struct Session::Shape {
   std::shared_ptr<const PixelSolver> solver;
 };
 
+/// How one layer's region is deformed: its inputs, and the solve it starts from.
+struct Session::Solve {
+  Layer layer;
+  std::shared_ptr<const Solve> warm;
+  /// Names the solution, and the deformation with the drawn mesh.
+  Hash solution;
+  Hash deformation;
+};
+
 struct Session::Caches {
   // Systems are small beside their use; shapes hold a factor of about 240 bytes a pixel, composites 16.
   ContentCache<DeformSystem> systems{16};
-  ContentCache<DeformSystem> systems_by_mesh{16};
+  ContentCache<DeformSystem> systems_by_solver{16};
+  // About 100 kB each.
+  ContentCache<Deformation> solutions{256};
   ContentCache<Deformation> deformations{64};
   ContentCache<Shape> shapes{6};
   ContentCache<Image> composites{6};
@@ -64,16 +75,69 @@ Session& Session::operator=(Session&&) noexcept = default;
 Result<void> Session::execute(const Command& command, const Watch& watch) {
   auto after = apply(document(), command);
   if (!after) return after.error();
-  for (const Layer& layer : after->layers) {
-    const Layer* before = document().find(layer.id);
-    if (layer.outline.empty() || (before != nullptr && system_key(*before) == system_key(layer))) continue;
-    if (auto system = system_of(layer, watch); !system) return system.error();
+  const Solves& before = present_solves();
+  Solves solves = plan(*after, command);
+  for (const auto& [id, solve] : solves) {
+    const auto known = before.find(id);
+    if (known != before.end() && known->second == solve) continue;
+    if (auto deformed = run(*solve, watch); !deformed) return deformed.error();
   }
   if (std::holds_alternative<DocumentNew>(command)) log_.clear();
   log_.push_back(command);
   std::string label = label_of(command, document(), *after);
   history_.push(std::move(*after), command, std::move(label));
+  keep(std::move(solves));
   return {};
+}
+
+const Session::Solves& Session::present_solves() const {
+  static const Solves kNone;
+  if (history_.entries().empty()) return kNone;
+  return solves_.at(history_.entries()[history_.cursor()].id);
+}
+
+Session::Solves Session::plan(const Document& after, const Command& command) const {
+  const Solves& before = present_solves();
+  // A curve drawn anew is matched anew, whatever was there before it.
+  const bool anew = std::holds_alternative<SketchSet>(command) || std::holds_alternative<SketchReset>(command);
+  Solves solves;
+  for (const Layer& layer : after.layers) {
+    if (layer.outline.empty()) continue;
+    const auto known = before.find(layer.id);
+    const std::shared_ptr<const Solve> last = known == before.end() ? nullptr : known->second;
+    solves.emplace(layer.id, last && is_same_solve(last->layer, layer) ? last : plan_layer(layer, last, anew));
+  }
+  return solves;
+}
+
+std::shared_ptr<const Session::Solve> Session::plan_layer(const Layer& layer, const std::shared_ptr<const Solve>& last,
+                                                          bool anew) {
+  auto solve = std::make_shared<Solve>();
+  solve->layer = layer;
+  const bool same_solution = last && solution_key(last->layer) == solution_key(layer);
+  const bool flipfree = layer.settings.method == DeformMethod::kFlipfree;
+  if (same_solution)
+    solve->warm = last->warm;
+  else if (last && flipfree && !anew && solver_key(last->layer) == solver_key(layer))
+    solve->warm = last;
+  solve->solution = same_solution
+                        ? last->solution
+                        : Hasher().add(solution_key(layer)).add(solve->warm ? solve->warm->solution : Hash()).finish();
+  solve->deformation = Hasher().add(solve->solution).add(layer.settings.cell_px).finish();
+  return solve;
+}
+
+void Session::keep(Solves solves) {
+  const auto& entries = history_.entries();
+  const std::uint64_t id = entries.back().id;
+  // What was undone and dropped, and what the history no longer holds.
+  if (entries.size() > 1) solves_.erase(solves_.upper_bound(entries[entries.size() - 2].id), solves_.end());
+  solves_.erase(solves_.begin(), solves_.lower_bound(entries.front().id));
+  solves_[id] = std::move(solves);
+}
+
+const Session::Solve& Session::solve_of(const Layer& layer) const {
+  return *present_solves().at(layer.id);
 }
 
 Result<void> Session::undo(std::size_t steps) {
@@ -91,35 +155,55 @@ Result<void> Session::redo(std::size_t steps) {
 void Session::adopt(Session other) {
   history_ = std::move(other.history_);
   log_ = std::move(other.log_);
+  solves_ = std::move(other.solves_);
+  caches_ = std::move(other.caches_);
   counters_ += other.counters_;
 }
 
 Result<std::shared_ptr<const DeformSystem>> Session::system_of(const Layer& layer, const Watch& watch) {
-  const Hash key = system_key(layer), by_mesh = mesh_key(layer);
+  const Hash key = system_key(layer), by_solver = solver_key(layer);
   if (auto cached = caches_->systems.find(key)) return cached;
-  const auto like = caches_->systems_by_mesh.find(by_mesh);
+  const auto like = caches_->systems_by_solver.find(by_solver);
   auto made = DeformSystem::make(layer.outline, deform_options(layer), like.get(), counters_.deform, watch);
   if (!made) return at(place_of(layer), made.error());
   auto system = std::make_shared<const DeformSystem>(std::move(*made));
-  if (!like) caches_->systems_by_mesh.put(by_mesh, system);
+  if (!like) caches_->systems_by_solver.put(by_solver, system);
   return caches_->systems.put(key, std::move(system));
 }
 
-Result<std::shared_ptr<const Deformation>> Session::deform(const Layer& layer, const Watch& watch) {
-  if (layer.outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(layer)};
-  const Hash key = deformation_key(layer);
-  if (auto cached = caches_->deformations.find(key)) return cached;
+Result<std::shared_ptr<const Deformation>> Session::run(const Solve& solve, const Watch& watch) {
+  if (auto cached = caches_->deformations.find(solve.deformation)) return cached;
+  const Layer& layer = solve.layer;
   const auto system = system_of(layer, watch);
   if (!system) return system.error();
-  auto made = (*system)->deform(layer.sketch, pin_pairs(layer), deform_options(layer), counters_.deform, watch);
-  if (!made) return at(place_of(layer), made.error());
-  return caches_->deformations.put(key, std::make_shared<const Deformation>(std::move(*made)));
+  const auto solution = caches_->solutions.find(solve.solution);
+  if (solution && solution->flipfree)
+    return caches_->deformations.put(solve.deformation,
+                                     std::make_shared<const Deformation>((*system)->redisplay(*solution)));
+
+  // What this solve starts from may have been forgotten: find the last one that is there, or that starts from nothing.
+  std::vector<const Solve*> chain;
+  std::shared_ptr<const Deformation> warm;
+  for (const Solve* before = solve.warm.get(); before != nullptr && !warm; before = before->warm.get()) {
+    warm = caches_->solutions.find(before->solution);
+    if (!warm) chain.push_back(before);
+  }
+  chain.insert(chain.begin(), &solve);
+  for (auto step = chain.rbegin(); step != chain.rend(); ++step) {
+    const Layer& input = (*step)->layer;
+    auto made =
+        (*system)->deform(input.sketch, pin_pairs(input), deform_options(input), warm.get(), counters_.deform, watch);
+    if (!made) return at(place_of(layer), made.error());
+    warm = caches_->solutions.put((*step)->solution, std::make_shared<const Deformation>(std::move(*made)));
+  }
+  return caches_->deformations.put(solve.deformation, warm);
 }
 
 Result<std::shared_ptr<const Deformation>> Session::deformation(LayerId id, const Watch& watch) {
   const Layer* layer = document().find(id);
   if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
-  return deform(*layer, watch);
+  if (layer->outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(*layer)};
+  return run(solve_of(*layer), watch);
 }
 
 Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
@@ -134,7 +218,8 @@ Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
 }
 
 Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& layer, const Watch& watch) {
-  const Hash key = shape_key(layer);
+  const Solve& solve = solve_of(layer);
+  const Hash key = shape_key(layer, solve.deformation);
   auto shape = caches_->shapes.find(key);
   const bool needs_solver = layer.settings.mode != CloneMode::kNone;
   if (shape && (shape->solver || !needs_solver || shape->mask.empty())) return shape;
@@ -143,7 +228,7 @@ Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& lay
   if (shape) {
     *made = *shape;
   } else {
-    const auto deformed = deform(layer, watch);
+    const auto deformed = run(solve, watch);
     if (!deformed) return deformed.error();
     const Similarity place = layer.placement.sub_pixel();
     StageTimer timer(watch.times, "warp");
@@ -191,7 +276,7 @@ Result<Image> Session::composite_until(const Document& document, std::size_t cou
     if (is_drawn(document.layers[i])) drawn.push_back(&document.layers[i]);
   std::vector<Hash> keys{document.target.image.content_hash()};
   for (const Layer* layer : drawn)
-    keys.push_back(Hasher().add(keys.back()).add(blend_key(*layer)).finish());
+    keys.push_back(Hasher().add(keys.back()).add(blend_key(*layer, solve_of(*layer).deformation)).finish());
 
   // The highest picture that is still there, then what stands above it.
   std::size_t have = drawn.size();

@@ -7,6 +7,7 @@
 #include "core/session/script.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -28,10 +29,14 @@ struct Counters {
 /// Derived results are kept by the content they depend on, so that an edit redoes only what it touches, and undo finds
 /// what was there:
 ///
-///     outline, cell, method            → mesh, symbolic and numeric factor
-///     … + sketch, pins, iterations     → deformed mesh
-///     … + source, turn, scale          → pixel mask, warped source, factor of the mask
+///     outline, method (the paper's: cell) → solved mesh, symbolic and numeric factor
+///     … + sketch, pins, weights           → solution
+///     … + cell                            → drawn mesh
+///     … + source, turn, scale             → pixel mask, warped source, factor of the mask
 ///     … + whole-pixel place, blending, what lies below → the picture
+///
+/// A flip-free solution starts from the one before it where an oversketch, a pin or a weight changed it, so it depends
+/// on the steps that led to it: the same steps give the same bits, whenever they are solved.
 ///
 /// @threads one at a time; the images and deformations that are handed out may be read from any.
 class Session {
@@ -76,9 +81,18 @@ public:
 private:
   struct Caches;
   struct Shape;
+  struct Solve;
+  /// How each layer of a history entry is solved.
+  using Solves = std::map<LayerId, std::shared_ptr<const Solve>>;
 
+  const Solves& present_solves() const;
+  Solves plan(const Document& after, const Command& command) const;
+  static std::shared_ptr<const Solve> plan_layer(const Layer& layer, const std::shared_ptr<const Solve>& last,
+                                                 bool anew);
+  void keep(Solves solves);
+  const Solve& solve_of(const Layer& layer) const;
   Result<std::shared_ptr<const DeformSystem>> system_of(const Layer& layer, const Watch& watch);
-  Result<std::shared_ptr<const Deformation>> deform(const Layer& layer, const Watch& watch);
+  Result<std::shared_ptr<const Deformation>> run(const Solve& solve, const Watch& watch);
   Result<std::shared_ptr<const Shape>> shape_of(const Layer& layer, const Watch& watch);
   Result<Image> blend(const Layer& layer, const Image& below, const Watch& watch);
   /// The picture up to and including the layer of that index.
@@ -87,6 +101,8 @@ private:
   History history_;
   Counters counters_;
   std::vector<Step> log_;
+  /// By the id of the history entry.
+  std::map<std::uint64_t, Solves> solves_;
   std::unique_ptr<Caches> caches_;
 };
 

@@ -56,7 +56,7 @@ public:
   explicit RandomCommands(unsigned seed) : random_(seed) {}
 
   Command next() {
-    switch (below(16)) {
+    switch (below(18)) {
     case 0:
       return TargetSet{loaded_ref("target.png", wavy_image(90, 80, below(3)))};
     case 1:
@@ -87,6 +87,10 @@ public:
       return LayerMove{layer(), {below(41) - 20, below(41) - 20}};
     case 14:
       return LayerTransform{layer(), real(-40, 40), real(0.7, 1.4), chance() ? std::optional(point()) : std::nullopt};
+    case 15:
+      return RegionEdit{layer(), stroke(), side(), real(2, 20), chance()};
+    case 16:
+      return SketchEdit{layer(), stroke(), side(), real(2, 20), chance()};
     default: {
       LayerSet set;
       set.layer = layer();
@@ -105,6 +109,18 @@ public:
   double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   bool chance() { return below(2) == 0; }
   Point point() { return {real(0, 90), real(0, 80)}; }
+  StrokeSide side() { return chance() ? StrokeSide::kAuto : StrokeSide::kOther; }
+  /// An open arc somewhere in the middle of the picture, where curves are.
+  Points stroke() {
+    const Point centre{real(35, 55), real(35, 50)};
+    const double radius = real(12, 32), from = real(0, 6.3), sweep = real(0.3, 2.5);
+    Points points;
+    for (int i = 0; i <= 12; ++i) {
+      const double angle = from + sweep * i / 12;
+      points.push_back(centre + radius * Point{std::cos(angle), std::sin(angle)});
+    }
+    return points;
+  }
   LayerRef layer() { return chance() ? LayerRef() : LayerRef(LayerId{1 + below(4)}); }
 
 private:

@@ -96,6 +96,12 @@ public:
       out += std::sin(dot(w.wave, z) + w.phase) * w.push;
     return out;
   }
+  Points all(const Points& points) const {
+    Points out;
+    for (const Point p : points)
+      out.push_back((*this)(p));
+    return out;
+  }
   /// Least determinant of the derivative on a grid over a box of half side `reach`.
   double least_determinant(double reach) const {
     double least = HUGE_VAL;
@@ -124,13 +130,14 @@ private:
 inline BentPair bend_at_random(const Points& shape, std::uint32_t seed, double strength = 0.3, double noise_px = 1.0) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> one(-1, 1);
+  const Points dense = resample(ClosedCurve(shape), 400);
   SmoothBend bend(random, strength);
-  while (bend.least_determinant(210) < 0.25)
+  while (bend.least_determinant(210) < 0.25 || find_self_crossing(bend.all(dense), true))
     bend = SmoothBend(random, strength);
   const double turn = 0.7 * one(random), scale = std::exp(0.4 * one(random));
   const Similarity place{std::polar(scale, turn), {300 * one(random), 300 * one(random)}};
   BentPair pair;
-  pair.outline = resample(ClosedCurve(shape), 400);
+  pair.outline = dense;
   for (const Point p : pair.outline)
     pair.truth.push_back(place(bend(p)));
   const ClosedCurve exact(pair.truth);

@@ -157,14 +157,15 @@ Writer begin_tga(const TgaHeader& h) {
 }
 
 Writer begin_bmp(const BmpHeader& h) {
-  const auto offset = static_cast<std::uint32_t>(14 + 40 + h.masks.size() * 4 + h.palette * 4);
+  const std::size_t behind = h.header_bytes == 40 ? h.masks.size() * 4 : 0;
+  const std::size_t offset = 14 + h.header_bytes + behind + h.palette * 4 + h.gap;
   Writer out;
-  out.text("BM").u32(0).u32(0).u32(offset).u32(40);
+  out.text("BM").u32(0).u32(0).u32(static_cast<std::uint32_t>(offset)).u32(h.header_bytes);
   out.u32(static_cast<std::uint32_t>(h.width)).u32(static_cast<std::uint32_t>(h.height)).u16(1).u16(h.bits);
   out.u32(h.compression).u32(0).u32(0).u32(0).u32(h.palette).u32(0);
   for (const std::uint32_t mask : h.masks)
     out.u32(mask);
-  return out;
+  return out.zeros(14 + h.header_bytes + behind - out.done().size());
 }
 
 Writer begin_hdr(std::string_view size_line, std::string_view lines) {

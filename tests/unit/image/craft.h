@@ -72,7 +72,8 @@ struct TgaHeader {
 };
 Writer begin_tga(const TgaHeader& header);
 
-/// File header and BITMAPINFOHEADER with `palette` entries to come (and `masks`, by compression 3, written here).
+/// File header and an information header of `header_bytes`, 40 or more, with `palette` entries to come.  `masks`, by
+/// compression 3, are written here: behind a header of 40 bytes, inside a longer one.
 struct BmpHeader {
   int width = 1;
   int height = 1;
@@ -80,6 +81,9 @@ struct BmpHeader {
   unsigned palette = 0;
   unsigned compression = 0;
   std::vector<std::uint32_t> masks = {};
+  unsigned header_bytes = 40;
+  /// Bytes between header or palette and the pixels; the caller writes them.
+  unsigned gap = 0;
 };
 Writer begin_bmp(const BmpHeader& header);
 

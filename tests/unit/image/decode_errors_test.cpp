@@ -99,17 +99,53 @@ TEST(DecodeErrors, SaysWhatIsUnsupportedOrDamaged) {
             "image.damaged");
   // A pixel beyond the palette.
   EXPECT_EQ(decode_code(craft::begin_bmp({.bits = 8, .palette = 1}).zeros(4).u32(1).done()), "image.damaged");
-  EXPECT_EQ(decode_code(craft::begin_tga({.type = 1, .map_count = 1, .map_bits = 24, .bits = 8}).zeros(3).u8(1).done()),
-            "image.damaged");
+  for (const unsigned type : {1U, 9U})
+    for (const unsigned bits : {8U, 16U}) {
+      Writer file = craft::begin_tga({.type = type, .map_count = 1, .map_bits = 24, .bits = bits});
+      EXPECT_EQ(decode_code((type == 9 ? file.zeros(3).u8(0) : file.zeros(3)).u16(bits == 8 ? 1 : 256).done()),
+                "image.damaged");
+    }
   // A packet of more pixels than the picture has.
   EXPECT_EQ(decode_code(craft::begin_tga({.type = 10}).u8(0x83).u8(1).u8(2).u8(3).done()), "image.damaged");
   EXPECT_EQ(decode_code(craft::begin_hdr("-Y 1 +X 1", "FORMAT=32-bit_rle_xyze\n").zeros(9).done()),
             "image.unsupported");
   EXPECT_EQ(decode_code(craft::begin_hdr("-Y 1 -Y 1").zeros(9).done()), "image.damaged");
   EXPECT_EQ(decode_code(craft::begin_hdr("-Y x +X 1").zeros(9).done()), "image.damaged");
-  // A repeat of nothing, and a line of another length.
-  EXPECT_EQ(decode_code(craft::begin_hdr("-Y 1 +X 2").u8(1).u8(1).u8(1).u8(1).zeros(9).done()), "image.damaged");
+  // A line of another length, and a run that goes past its end.
   EXPECT_EQ(decode_code(craft::begin_hdr("-Y 1 +X 8").u8(2).u8(2).u8(0).u8(9).zeros(99).done()), "image.damaged");
+  EXPECT_EQ(decode_code(craft::begin_hdr("-Y 1 +X 8").u8(2).u8(2).u8(0).u8(8).u8(137).zeros(99).done()),
+            "image.damaged");
+}
+
+TEST(DecodeErrors, SaysWhichKindsAreNotRead) {
+  const auto expect_unsupported = [](const Writer& file) {
+    EXPECT_EQ(decode_code(Writer(file).zeros(2000).done()), "image.unsupported");
+  };
+  expect_unsupported(craft::begin_bmp({.bits = 2, .palette = 4}));
+  expect_unsupported(craft::begin_bmp({.header_bytes = 64}));
+  expect_unsupported(craft::begin_bmp({.gap = 4}));
+  const std::vector<std::uint32_t> rgb{0xff0000, 0xff00, 0xff}, rgba{0xff0000, 0xff00, 0xff, 0xff000000};
+  expect_unsupported(craft::begin_bmp({.bits = 32, .compression = 6, .masks = rgba}));
+  expect_unsupported(craft::begin_bmp({.bits = 32, .compression = 3, .masks = rgb, .header_bytes = 56}));
+  expect_unsupported(craft::begin_bmp({.bits = 32, .compression = 3, .masks = {0x3ff00000, 0xffc00, 0x3ff}}));
+  // OS/2's header with a palette.
+  expect_unsupported(Writer().text("BM").u32(0).u32(0).u32(32).u32(12).u16(2).u16(1).u16(1).u16(1));
+  expect_unsupported(craft::begin_tga({.type = 2, .map_count = 1, .map_bits = 24}));
+  Bytes map_from_one = craft::begin_tga({.type = 1, .map_count = 2, .map_bits = 24, .bits = 8}).done();
+  map_from_one[3] = std::byte{1};
+  expect_unsupported(Writer().bytes(map_from_one));
+  expect_unsupported(craft::begin_hdr("-Y 1 +X 1", ""));
+  // Runs as they were once coded: of a pixel, and of nothing.
+  expect_unsupported(craft::begin_hdr("-Y 1 +X 261").u8(9).u8(8).u8(7).u8(130).u8(1).u8(1).u8(1).u8(3));
+  expect_unsupported(craft::begin_hdr("-Y 1 +X 2").u8(1).u8(1).u8(1).u8(1));
+  for (const char* order : {"-Y 2 -X 3", "+Y 2 -X 3", "+Y 2 +X 3", "+X 2 -Y 3", "-X 2 -Y 3", "-X 2 +Y 3", "+X 2 +Y 3"})
+    expect_unsupported(craft::begin_hdr(order));
+}
+
+TEST(DecodeErrors, SaysWhatStbImageSays) {
+  const auto image = decode_image(craft::begin_hdr("-Y 1 +X 8").u8(2).u8(2).u8(0).u8(9).zeros(99).done());
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().sentence.find("invalid decoded scanline length"), std::string::npos);
 }
 
 TEST(DecodeErrors, LoadNamesThePath) {

@@ -56,8 +56,12 @@ Bytes indexed_bmp() {
 }
 
 Bytes masked_bmp() {
-  Writer file = craft::begin_bmp(
-      {.width = 4, .height = -4, .bits = 32, .compression = 6, .masks = {0xff, 0xff00, 0xff0000, 0xff000000}});
+  Writer file = craft::begin_bmp({.width = 4,
+                                  .height = -4,
+                                  .bits = 32,
+                                  .compression = 3,
+                                  .masks = {0xff, 0xff00, 0xff0000, 0xff000000},
+                                  .header_bytes = 124});
   return file.bytes(random_bytes(64, 8)).done();
 }
 
@@ -88,7 +92,9 @@ std::vector<Sample> samples() {
           {"bmp 24", craft::begin_bmp({.width = 5, .height = 3}).bytes(random_bytes(48, 2)).done(), 1},
           {"bmp 4", indexed_bmp(), 3},
           {"bmp masks", masked_bmp()},
+          {"bmp 16", craft::begin_bmp({.width = 3, .height = 3, .bits = 16}).bytes(random_bytes(24, 2)).done(), 2},
           {"tga 24", craft::begin_tga({.width = 4, .height = 4}).bytes(random_bytes(48, 2)).done()},
+          {"tga 16", craft::begin_tga({.width = 4, .height = 4, .bits = 16}).bytes(random_bytes(32, 2)).done()},
           {"tga packed", packed_tga()},
           {"tga palette", indexed_tga()},
           {"hdr flat", craft::begin_hdr("-Y 3 +X 4").bytes(random_bytes(48, 2)).done()},

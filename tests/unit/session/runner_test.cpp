@@ -136,7 +136,7 @@ TEST_F(Runner, exports_reports_and_expects) {
   EXPECT_EQ(report["cursor"], 5);
   for (const char* counter :
        {"meshings", "symbolic_factorizations", "numeric_factorizations", "matches", "mask_setups", "clone_solves"})
-    EXPECT_EQ(report["counters"][counter], 1) << counter;
+    EXPECT_GE(report["counters"][counter], 1) << counter;
 }
 
 TEST_F(Runner, an_expectation_that_fails_says_what_is_there) {
