@@ -63,6 +63,8 @@ Cli::Cli()
   add_evaluate(*this);
   add_clone(*this);
   add_warp(*this);
+  add_bench(*this);
+  add_figures(*this);
   add_commands(*this);
 }
 

@@ -43,6 +43,8 @@ void add_deform(Cli& cli);
 void add_evaluate(Cli& cli);
 void add_clone(Cli& cli);
 void add_warp(Cli& cli);
+void add_bench(Cli& cli);
+void add_figures(Cli& cli);
 void add_commands(Cli& cli);
 
 } // namespace oversketch::cli

@@ -5,25 +5,40 @@
 #include "core/session/report.h"
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace oversketch::cli {
 namespace {
 
+constexpr int kMostAlternatives = 20;
+
 struct Options {
   std::string given, out;
+  /// None: not asked for.
+  std::optional<int> alternatives;
   DeformOptions deform;
 };
+
+Result<std::vector<DeformedCase>> solve(const DeformCase& given, const Options& options, const Watch& watch) {
+  if (options.alternatives) return solve_case_alternatives(given, options.deform, *options.alternatives + 1, watch);
+  auto solved = solve_case(given, options.deform, watch);
+  if (!solved) return solved.error();
+  std::vector<DeformedCase> one;
+  one.push_back(std::move(*solved));
+  return one;
+}
 
 Result<Json> deform(const Options& options, const Watch& watch) {
   const auto given = read_case(options.given);
   if (!given) return given.error();
-  const auto solved = solve_case(*given, options.deform, watch);
+  const auto solved = solve(*given, options, watch);
   if (!solved) return at(options.given, solved.error());
-  const auto written = write_file(options.out, result_json(*solved).dump() + "\n");
+  const auto written = write_file(options.out, result_json(*solved, options.alternatives.has_value()).dump() + "\n");
   if (!written) return written.error();
   Json report;
   report["name"] = given->name;
-  report["metrics"] = metrics_json(solved->metrics);
+  report["metrics"] = metrics_json(solved->front().metrics);
   return report;
 }
 
@@ -39,6 +54,10 @@ void add_deform(Cli& cli) {
   sub->add_option("--out", options->out, "positions, correspondence, mesh and metrics")
       ->required()
       ->type_name("RESULT.json");
+  sub->add_option("--alternatives", options->alternatives,
+                  "also solve at most K other ways to match the curves, into \"alternatives\" (flipfree, no pins)")
+      ->type_name("K")
+      ->check(CLI::Range(0, kMostAlternatives));
   add_deform_options(sub, options->deform);
   cli.on_run(sub, [options](const Watch& watch) { return deform(*options, watch); });
 }

@@ -5,12 +5,19 @@
 namespace oversketch::cli {
 
 void add_deform_options(CLI::App* sub, DeformOptions& options) {
-  const std::map<std::string, Method> methods = {{"paper", Method::kPaper}, {"initial", Method::kInitial}};
-  sub->add_option("--method", options.method, "paper (default) or initial")
+  const std::map<std::string, Method> methods = {
+      {"flipfree", Method::kFlipfree}, {"paper", Method::kPaper}, {"initial", Method::kInitial}};
+  sub->add_option("--method", options.method, "flipfree (default), paper or initial")
       ->transform(CLI::CheckedTransformer(methods))
       ->type_name("METHOD");
   sub->add_option("--cell", options.cell_px, "side of a mesh cell, source pixels")
       ->type_name("PX")
+      ->capture_default_str();
+  sub->add_option("--stiffness", options.stiffness, "against change of area, flipfree; 0.001 to 1000")
+      ->type_name("λ")
+      ->capture_default_str();
+  sub->add_option("--follow", options.follow, "how closely the sketch is followed, flipfree; 0.01 to 10000")
+      ->type_name("W")
       ->capture_default_str();
   sub->add_option("--handle-weight", options.handle_weight, "the paper's ω, 0.01 to 100")
       ->type_name("ω")

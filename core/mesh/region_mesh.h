@@ -74,7 +74,8 @@ private:
 };
 
 /// Whether cells of that size suit a region.
-/// @errors mesh.cell (not finite, or not positive); mesh.cell-too-large (larger than the longer side of the outline's box).
+/// @errors mesh.cell (not finite, or not positive); mesh.cell-too-large (larger than the longer side of the outline's
+/// box).
 Result<void> check_cell_size(const ClosedCurve& outline, double cell_px);
 
 /// Meshes the inside of `outline`.

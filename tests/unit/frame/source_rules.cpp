@@ -27,6 +27,8 @@ std::vector<Library> list_libraries() {
           {"jpeglib.h", {"core/image/"}},
           {"spng.h", {"core/image/"}},
           {"libexif/", {"core/image/"}},
+          {"stb_image", {"core/image/"}},
+          {"stb_truetype", {"app/cli/figure_font"}},
           {"xxhash.h", {"core/base/"}},
           {"CLI/", {"app/"}},
           {"imgui", {"ui/", "app/gui/"}},
