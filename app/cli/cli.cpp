@@ -3,10 +3,13 @@
 #include "app/version.h"
 
 #include "core/base/file.h"
+#include "core/base/suggest.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -16,8 +19,22 @@ namespace {
 
 constexpr int kRefused = 1, kUsage = 2;
 
+/// Control characters, as a file's name may have them, are shown and not sent to the terminal.
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) {
+      shown += c;
+      continue;
+    }
+    constexpr char digits[] = "0123456789abcdef";
+    shown += {'\\', 'x', digits[(c >> 4) & 15], digits[c & 15]};
+  }
+  return shown;
+}
+
 void print_error(const Error& error) {
-  std::fprintf(stderr, "oversketch-cli: %s\n", to_string(error).c_str());
+  std::fprintf(stderr, "oversketch-cli: %s\n", printable(to_string(error)).c_str());
 }
 
 /// Runs the work; what a library throws becomes an Error here and nowhere else.
@@ -70,6 +87,7 @@ Cli::Cli()
 
 CLI::App* Cli::add(const std::string& name, const std::string& description, const std::string& example) {
   CLI::App* sub = app_.add_subcommand(name, description);
+  names_.push_back(name);
   sub->footer("Example:\n  oversketch-cli " + example);
   sub->add_option("--report", report_path_, "write what was done and the times as JSON")->type_name("FILE");
   sub->add_option("--threads", threads_, "use at most N threads (0: as many as there are cores)")
@@ -83,6 +101,14 @@ void Cli::on_run(CLI::App* subcommand, std::function<Result<Json>(const Watch&)>
 }
 
 int Cli::run(int argc, char** argv) {
+  // A file larger than the system allows is then an error of writing like others.
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (argc > 1 && argv[1][0] != '-' && std::find(names_.begin(), names_.end(), argv[1]) == names_.end()) {
+    const std::vector<std::string_view> candidates(names_.begin(), names_.end());
+    std::fprintf(stderr, "oversketch-cli: there is no subcommand \"%s\"%s (--help lists them)\n",
+                 printable(argv[1]).c_str(), did_you_mean(argv[1], candidates).c_str());
+    return kUsage;
+  }
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -100,6 +126,8 @@ int Cli::perform(const std::string& name, const std::function<Result<Json>(const
   const auto done = guarded(work, watch);
   clear_progress();
   if (!done) return print_error(done.error()), kRefused;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return print_error({"file.write", "the output could not be written", "standard output"}), kRefused;
   if (report_path_.empty()) return 0;
 
   Json report;

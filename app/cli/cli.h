@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace oversketch::cli {
 
@@ -30,6 +31,7 @@ private:
   int perform(const std::string& name, const std::function<Result<Json>(const Watch&)>& work);
 
   CLI::App app_;
+  std::vector<std::string> names_;
   std::string report_path_;
   int threads_ = 0;
   std::string chosen_;

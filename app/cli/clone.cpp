@@ -149,13 +149,19 @@ void add_clone(Cli& cli) {
       ->type_name("X,Y")
       ->capture_default_str();
   sub->add_option("--mode", options->mode, "import, mixed, monochrome, average or none")
+      ->check(CLI::IsMember({"import", "mixed", "monochrome", "average", "none"}))
       ->type_name("MODE")
       ->capture_default_str();
   sub->add_option("--strength", options->strength, "part of the colour correction, 0 to 1")
       ->type_name("S")
       ->capture_default_str();
-  sub->add_option("--domain", options->domain, "encoded, linear or log")->type_name("DOMAIN")->capture_default_str();
-  sub->add_option("--feather", options->feather_px, "width of the soft edge")->type_name("PX")->capture_default_str();
+  sub->add_option("--domain", options->domain, "encoded, linear or log")
+      ->check(CLI::IsMember({"encoded", "linear", "log"}))
+      ->type_name("DOMAIN")
+      ->capture_default_str();
+  sub->add_option("--feather", options->feather_px, "width over which a strength below 1, or mode none, sets in")
+      ->type_name("PX")
+      ->capture_default_str();
   sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();

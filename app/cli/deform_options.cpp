@@ -1,14 +1,13 @@
 #include "app/cli/deform_options.h"
 
-#include <map>
-
 namespace oversketch::cli {
 
 void add_deform_options(CLI::App* sub, DeformOptions& options) {
-  const std::map<std::string, Method> methods = {
-      {"flipfree", Method::kFlipfree}, {"paper", Method::kPaper}, {"initial", Method::kInitial}};
-  sub->add_option("--method", options.method, "flipfree (default), paper or initial")
-      ->transform(CLI::CheckedTransformer(methods))
+  const auto set_method = [&options](const std::string& name) {
+    options.method = name == "flipfree" ? Method::kFlipfree : name == "paper" ? Method::kPaper : Method::kInitial;
+  };
+  sub->add_option_function<std::string>("--method", set_method, "flipfree (default), paper or initial")
+      ->check(CLI::IsMember({"flipfree", "paper", "initial"}))
       ->type_name("METHOD");
   sub->add_option("--cell", options.cell_px, "side of a mesh cell, source pixels")
       ->type_name("PX")

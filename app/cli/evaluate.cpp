@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 
 namespace oversketch::cli {
 namespace {
@@ -48,27 +49,39 @@ double quantile(std::vector<double> values, double q) {
   return std::lerp(values[below], values[above], rank - static_cast<double>(below));
 }
 
-/// Mean, median, 95th percentile and greatest of each number; the sum of what is counted.
+/// Mean, median, 95th percentile, greatest and sum of every number that any of the objects has.
+Json statistics_of(const std::vector<Json>& objects) {
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  for (const Json& object : objects)
+    for (const auto& [key, value] : object.items()) {
+      if (!value.is_number()) continue;
+      auto column =
+          std::find_if(columns.begin(), columns.end(), [&, &name = key](const auto& c) { return c.first == name; });
+      if (column == columns.end()) column = columns.insert(columns.end(), {key, {}});
+      column->second.push_back(value.get<double>());
+    }
+  Json statistics = Json::object();
+  for (const auto& [key, values] : columns) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    statistics[key] = {{"mean", sum / static_cast<double>(values.size())},
+                       {"median", quantile(values, 0.5)},
+                       {"p95", quantile(values, 0.95)},
+                       {"max", quantile(values, 1)},
+                       {"sum", sum}};
+  }
+  return statistics;
+}
+
 Json summarize(const Json& cases) {
   Json summary;
   summary["cases"] = cases.size();
-  const auto with_flips =
+  summary["cases_with_flips"] =
       std::count_if(cases.begin(), cases.end(), [](const Json& c) { return c["flipped_cells"] > 0; });
-  summary["cases_with_flips"] = with_flips;
-  for (const auto& [key, first] : cases.front().items()) {
-    std::vector<double> values;
-    for (const Json& c : cases)
-      if (c.contains(key) && c[key].is_number()) values.push_back(c[key].get<double>());
-    if (values.empty()) continue;
-    double sum = 0;
-    for (const double value : values)
-      sum += value;
-    summary[key] = {{"mean", sum / static_cast<double>(values.size())},
-                    {"median", quantile(values, 0.5)},
-                    {"p95", quantile(values, 0.95)},
-                    {"max", quantile(values, 1)},
-                    {"sum", sum}};
-  }
+  summary.update(statistics_of({cases.begin(), cases.end()}));
+  std::vector<Json> stages;
+  for (const Json& c : cases)
+    stages.push_back(c["stages_ms"]);
+  summary["stages_ms"] = statistics_of(stages);
   return summary;
 }
 

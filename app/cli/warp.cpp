@@ -7,6 +7,7 @@
 #include "core/warp/warp.h"
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 namespace oversketch::cli {
@@ -37,13 +38,18 @@ Result<Rect> canvas_for(const Image& image, const Points& sketch) {
 }
 
 Result<Json> warp(const Options& options, const Watch& watch) {
+  if (std::filesystem::path(options.out).has_extension() && !keeps_alpha(options.out))
+    return Error{"image.no-alpha", "the region is transparent outside, which only PNG can hold: end the name in .png",
+                 options.out};
   const auto image = load_image(options.image);
   if (!image) return image.error();
   auto outline = read_curve(options.outline, "outline", {"outline", "points"});
   if (!outline) return outline.error();
   for (const Point p : *outline)
     if (p.x < 0 || p.y < 0 || p.x > image->width() || p.y > image->height())
-      return Error{"region.outside-source", "the outline leaves the picture", options.outline};
+      return Error{"region.outside-source",
+                   "the outline leaves the picture at (" + Json(p.x).dump() + ", " + Json(p.y).dump() + ")",
+                   options.outline};
   auto sketch = read_curve(options.sketch, "sketch", {"sketch", "curve", "points"});
   if (!sketch) return sketch.error();
   const auto canvas = canvas_for(*image, *sketch);

@@ -1,4 +1,5 @@
 #include "core/base/file.h"
+#include <algorithm>
 
 #include <cerrno>
 #include <chrono>
@@ -170,6 +171,22 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uintmax_t mo
 
 Result<std::string> read_text_file(const fs::path& path, std::uintmax_t most_bytes) {
   return read_all<std::string>(path, most_bytes);
+}
+
+bool lies_below(const fs::path& folder, const fs::path& path) {
+  std::error_code failure;
+  const fs::path root = fs::weakly_canonical(fs::absolute(folder), failure);
+  if (failure) return false;
+  // A link to nothing would be followed when it is written.
+  fs::path full = fs::absolute(path);
+  for (int links = 0; fs::is_symlink(full, failure); ++links) {
+    if (links == 40) return false;
+    const fs::path to = fs::read_symlink(full, failure);
+    if (failure) return false;
+    full = to.is_absolute() ? to : full.parent_path() / to;
+  }
+  const fs::path real = fs::weakly_canonical(full, failure);
+  return !failure && std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
 }
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {

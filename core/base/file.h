@@ -17,6 +17,9 @@ namespace oversketch {
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 2'000'000'000);
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 500'000'000);
 
+/// Whether a path, all links on it followed, lies below the folder; what is not there yet counts as it would be made.
+bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& path);
+
 /// Replaces the file whole or not at all: written to a fresh name beside it, synced, renamed.  A failure leaves the old
 /// file as it was and no other file behind.  A link stays a link: the file it leads to is replaced.  Permissions of a
 /// file that was there are kept.  What is no file at all (a device, a pipe) is written to as it stands.

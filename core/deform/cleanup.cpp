@@ -227,7 +227,7 @@ Result<Measured> check_points(const Points& given) {
   for (const Point p : given) {
     if (!is_finite(p)) return Error{"sketch.not-finite", "A point of the sketch is not a finite number.", ""};
     if (std::max(std::abs(p.x), std::abs(p.y)) >= kMaskCoordinateLimit)
-      return Error{"sketch.too-far", "The sketch reaches to " + format_place(p) + ", too far from the picture.", ""};
+      return Error{"sketch.too-far", "The sketch reaches more than a million pixels away from the picture.", ""};
   }
   Measured measured{without_repeats(given), {}, {}};
   if (measured.points.size() < 3)
@@ -289,7 +289,7 @@ Result<CleanSketch> clean_sketch(const Points& given, double orientation) {
   const double around = kept.points.size() < 3 ? 0.0 : perimeter(kept.points);
   const double area = kept.points.size() < 3 ? 0.0 : std::abs(signed_area(kept.points));
   if (area < std::max(kLeastArea, kLeastFill * around * around / 16))
-    return Error{"sketch.no-area", "The sketch encloses no area to speak of; draw a larger closed line.", ""};
+    return Error{"sketch.no-area", "The sketch encloses hardly any area for its length; draw it larger or plainer.", ""};
   CleanSketch clean = make_clean(std::move(kept), orientation, total);
   for (const auto& [start, piece] : away->pieces()) {
     ++clean.loops_cut;

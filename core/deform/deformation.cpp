@@ -41,6 +41,8 @@ Result<void> check_options(const DeformOptions& options) {
     return Error{"deform.stiffness", "the stiffness must be from 0.001 to 1000", ""};
   if (!within(options.follow, kLeastFollow, kMostFollow))
     return Error{"deform.follow", "how closely the sketch is followed must be from 0.01 to 10000", ""};
+  if (options.iterations < 0 || options.iterations > kMostPaperIterations)
+    return Error{"deform.iterations", "the iterations must be from 0 to " + std::to_string(kMostPaperIterations), ""};
   return {};
 }
 

@@ -29,9 +29,12 @@ struct DeformOptions {
   double follow = 20;
   double handle_weight = 1;
   int iterations = 50;
+
+  bool operator==(const DeformOptions&) const = default;
 };
 
-/// What the numbers may be; outside, deform.stiffness and deform.follow are the errors.
+/// What the numbers may be; outside, deform.stiffness, deform.follow and
+/// deform.iterations are the errors.
 inline constexpr double kLeastStiffness = 0.001, kMostStiffness = 1000, kLeastFollow = 0.01, kMostFollow = 10'000;
 
 /// How often each kind of work was done.

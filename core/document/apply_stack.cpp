@@ -29,7 +29,8 @@ int assign(T& setting, const std::optional<T>& value) {
 
 Result<void> run(Document& document, const DocumentNew& c) {
   if (c.target && (c.width || c.height || c.color))
-    return Error{"document.size", "give a target picture, or width and height, not both", ""};
+    return Error{"document.size", "a target picture has its own size and colours: leave width, height and color out",
+                 ""};
   if (!c.target && (!c.width || !c.height))
     return Error{"document.size", "give a target picture, or width and height", ""};
   document = Document{};

@@ -216,14 +216,15 @@ struct Spec<LayerSet> {
               0.01, 10000},
         Field{"handle_weight", &LayerSet::handle_weight, "the paper's ω, methods paper and initial; 1 from the start",
               "", 0.01, 100},
-        Field{"iterations", &LayerSet::iterations, "gradient steps, method paper; 50 from the start", "", 0, 10000},
+        Field{"iterations", &LayerSet::iterations, "gradient steps, method paper; 50 from the start", "", 0, 100000},
         Field{"mode", &LayerSet::mode, "how the region is blended; import from the start"},
         Field{"strength", &LayerSet::strength, "how much of the colour correction is applied; 1 from the start", "", 0,
               1},
         Field{"domain", &LayerSet::domain, "the values that are blended; encoded from the start"},
         Field{"visible", &LayerSet::visible, "whether it is drawn; true from the start"},
         Field{"opacity", &LayerSet::opacity, "1 from the start", "", 0, 1},
-        Field{"feather_px", &LayerSet::feather_px, "width of the soft edge; 0 from the start", "px", 0, 1000});
+        Field{"feather_px", &LayerSet::feather_px,
+              "width over which a strength below 1, or mode none, sets in; 0 from the start", "px", 0, 1000});
   }
 };
 

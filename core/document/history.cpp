@@ -2,7 +2,7 @@
 
 #include "core/document/command_table.h"
 
-#include <unordered_map>
+#include <algorithm>
 #include <unordered_set>
 
 namespace oversketch {
@@ -16,6 +16,21 @@ void for_each_image(const Document& document, const auto& visit) {
 
 std::size_t bytes_of(const Image& image) {
   return image.pixels().values().size_bytes();
+}
+
+/// Bytes of the images of `after` that `before` does not share.  Commands leave the order of layers nearly as it was,
+/// so the layer at the same index is asked first.
+std::size_t count_new_bytes(const Document& before, const Document& after) {
+  const auto same = [](const Image& a, const Image& b) { return &a.pixels() == &b.pixels(); };
+  std::size_t bytes = same(before.target.image, after.target.image) ? 0 : bytes_of(after.target.image);
+  for (std::size_t i = 0; i < after.layers.size(); ++i) {
+    const Image& image = after.layers[i].source.image;
+    if (i < before.layers.size() && same(before.layers[i].source.image, image)) continue;
+    const bool known = std::any_of(before.layers.begin(), before.layers.end(),
+                                   [&](const Layer& layer) { return same(layer.source.image, image); });
+    if (!known && !same(after.target.image, image)) bytes += bytes_of(image);
+  }
+  return bytes;
 }
 
 } // namespace
@@ -36,17 +51,24 @@ Result<void> History::execute(const Command& command) {
 void History::push(Document after, const Command& command, std::string label) {
   if (std::holds_alternative<DocumentNew>(command)) {
     entries_.clear();
+    image_bytes_ = 0;
     saved_ = 0;
   } else {
-    entries_.resize(std::min(entries_.size(), cursor_ + 1));
+    while (entries_.size() > cursor_ + 1) {
+      image_bytes_ -= entries_.back().new_image_bytes;
+      entries_.pop_back();
+    }
     if (saved_ && *saved_ >= entries_.size()) saved_.reset();
   }
-  entries_.push_back({next_id_++, std::move(after), command, std::move(label)});
+  const std::size_t new_bytes = count_new_bytes(present(), after);
+  image_bytes_ += new_bytes;
+  entries_.push_back({next_id_++, std::move(after), command, std::move(label), new_bytes});
   cursor_ = entries_.size() - 1;
   trim();
 }
 
-void History::trim() {
+/// How many of the youngest entries stay within the limits.
+std::size_t History::count_kept() const {
   // Image bytes held by each entry and not by the present document; an image in several entries counts once, at the
   // youngest.
   std::unordered_set<const void*> counted;
@@ -60,8 +82,20 @@ void History::trim() {
     if (!within_least && (bytes > limits_.image_bytes || kept > limits_.most_steps)) break;
     ++kept;
   }
-  const std::size_t dropped = entries_.size() - kept;
+  return kept;
+}
+
+void History::trim() {
+  // Looking through all entries is only worth it when their images could be too many.
+  if (image_bytes_ <= limits_.image_bytes && entries_.size() <= limits_.most_steps + 1) return;
+  const std::size_t dropped = entries_.size() - count_kept();
   if (dropped == 0) return;
+  for (std::size_t i = 0; i < dropped; ++i)
+    image_bytes_ -= entries_[i].new_image_bytes;
+  // The oldest entry holds all its images alone now.
+  image_bytes_ -= entries_[dropped].new_image_bytes;
+  entries_[dropped].new_image_bytes = count_new_bytes(Document{}, entries_[dropped].document);
+  image_bytes_ += entries_[dropped].new_image_bytes;
   entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(dropped));
   cursor_ -= dropped;
   if (saved_ && *saved_ < dropped)

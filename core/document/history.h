@@ -26,6 +26,8 @@ public:
     /// What led here from the entry before.
     Command command;
     std::string label;
+    /// Bytes of the images that the entry before does not have.
+    std::size_t new_image_bytes = 0;
   };
 
   struct Limits {
@@ -67,11 +69,14 @@ public:
 
 private:
   void trim();
+  std::size_t count_kept() const;
 
   Limits limits_;
   std::uint64_t next_id_ = 1;
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
+  /// Sum of the entries' new_image_bytes: never less than what the budget counts.
+  std::size_t image_bytes_ = 0;
   /// Index of the saved entry, 0 in a new document; none when it was dropped.
   std::optional<std::size_t> saved_;
 };

@@ -19,6 +19,9 @@ Result<Json> parse_json_line(std::string_view line) {
     // The library's text is "[json.exception.…] parse error at line 1, column 17: …".
     std::string reason = problem.what();
     if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+    // A script's line is the place already.
+    if (const auto first = reason.find("at line 1, "); first != std::string::npos)
+      reason.erase(first, 11).insert(first, "at ");
     return Error{"script.syntax", "not JSON: " + reason.substr(0, 300), ""};
   }
   if (!object.is_object()) return Error{"script.not-an-object", "a line must be an object {…}", ""};

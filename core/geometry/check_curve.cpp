@@ -11,7 +11,8 @@ namespace {
 
 std::string in_words(Point p) {
   char text[64];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f)", p.x, p.y);
+  const bool plain = std::abs(p.x) < 1e7 && std::abs(p.y) < 1e7;
+  std::snprintf(text, sizeof text, plain ? "(%.1f, %.1f)" : "(%.4g, %.4g)", p.x, p.y);
   return text;
 }
 

@@ -99,11 +99,21 @@ Result<Image> decode_image(std::span<const std::byte> bytes) try {
 }
 
 Result<Image> load_image(const std::filesystem::path& path) {
+  // A pipe or a device may never end.
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind == std::filesystem::file_type::fifo || kind == std::filesystem::file_type::character ||
+      kind == std::filesystem::file_type::socket)
+    return Error{"image.unreadable", "The picture cannot be opened: it is no regular file.", path.string()};
   const auto bytes = read_file(path);
   if (!bytes) return opening_error(bytes.error());
   Result<Image> image = decode_image(*bytes);
   if (!image) return at(path.string(), image.error());
   return image;
+}
+
+bool keeps_alpha(const std::filesystem::path& path) {
+  return lowered_extension(path) == ".png";
 }
 
 Result<void> save_image(const Image& image, const std::filesystem::path& path, BitDepth depth) {

@@ -59,6 +59,9 @@ Result<std::vector<std::byte>> encode_png(const Image& image, BitDepth depth = B
 /// @cost about 11 ns a pixel.
 Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality = 95);
 
+/// Whether save_image() writes transparency under that name.
+bool keeps_alpha(const std::filesystem::path& path);
+
 /// Writes PNG or JPEG by the path's extension (.png, .jpg, .jpeg, any case).  The file appears whole or not at all: it
 /// is written beside, synced, then renamed.
 /// @errors image.unknown-extension, image.depth (16 bit asked of JPEG), those of the encoders, file.write (with the

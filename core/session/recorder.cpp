@@ -34,7 +34,7 @@ Result<BitDepth> exact_depth(const Image& image) {
 class PictureFolder {
 public:
   explicit PictureFolder(const fs::path& script)
-      : folder_(script.stem().string() + ".files"), root_(script.parent_path()) {}
+      : folder_(script.stem().string() + ".files"), root_(script.has_parent_path() ? script.parent_path() : ".") {}
 
   /// The picture's path relative to the script; written if it is not there yet.
   Result<std::string> store(const ImageRef& ref) {
@@ -44,6 +44,8 @@ public:
     if (!depth) return at(ref.name, depth.error());
     const fs::path relative = folder_ / to_string(hash) / (fs::path(ref.name).stem().string() + ".png");
     std::error_code failure;
+    if (!lies_below(root_, root_ / relative) || !lies_below(root_, root_ / folder_))
+      return Error{"file.write", "a link leads out of the session's folder", (root_ / relative).string()};
     fs::create_directories((root_ / relative).parent_path(), failure);
     if (failure)
       return Error{"file.write", "the folder cannot be made: " + failure.message(), (root_ / relative).string()};

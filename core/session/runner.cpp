@@ -68,6 +68,9 @@ private:
       return Error{"document.none", "there is no document yet: begin with document.new", ""};
     const LayerRef layer = step.layer ? step.layer : session_.document().selected;
     if (!layer) return Error{"layer.none-selected", "no layer is selected: name one with \"layer\"", ""};
+    if (fs::path(step.path).has_extension() && !keeps_alpha(step.path))
+      return Error{"image.no-alpha",
+                   "a layer alone is transparent outside, which only PNG can hold: end the name in .png", ""};
     return write_picture(session_.layer_picture(*layer, watch_), step.path, step.depth);
   }
 
@@ -154,9 +157,8 @@ private:
       if (part == "..") return path_error(name, "has \"..\"");
     std::error_code failure;
     const fs::path folder = (folders_.out / relative).parent_path();
-    // What is there already may be a link: it must not lead outside.
-    const fs::path root = fs::weakly_canonical(folders_.out, failure), real = fs::weakly_canonical(folder, failure);
-    if (failure || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
+    // What is there already may be a link: neither the folder, nor the file may lead outside.
+    if (!lies_below(folders_.out, folder) || !lies_below(folders_.out, folders_.out / relative))
       return path_error(name, "leads outside");
     fs::create_directories(folder, failure);
     if (failure) return Error{"file.write", "the folder cannot be made: " + failure.message(), folder.string()};

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -87,6 +88,11 @@ TEST_F(CommandLine, tells_usage_from_refusal) {
   EXPECT_EQ(run("deform case.json").code, 2);
   EXPECT_EQ(run("deform case.json --out out.json --method best").code, 2);
   EXPECT_EQ(run("deform case.json --out out.json --cell many").code, 2);
+  EXPECT_EQ(run("clone --source source.png --target target.png --mask mask.png --out out.png --mode mixd").code, 2);
+  const Outcome unknown = run("evalute .");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.text.find("did you mean \"evaluate\"?"), std::string::npos) << unknown.text;
+  EXPECT_EQ(run("commands >/dev/full").code, 1);
   EXPECT_EQ(run("--help").code, 0);
   EXPECT_EQ(run("--version").code, 0);
   for (const char* sub : {"run", "render", "deform", "evaluate", "clone", "warp", "commands"}) {
@@ -111,7 +117,7 @@ TEST_F(CommandLine, refuses_bad_input_and_writes_nothing) {
   refused("deform case.json --out out.json --stiffness -1", "deform.stiffness");
   refused("deform case.json --out out.json --follow nan", "deform.follow");
   refused("deform case.json --out out.json --method paper --handle-weight 0", "deform.handle-weight");
-  refused("deform case.json --out out.json --method paper --iterations -5", "deform.iterations");
+  refused("deform case.json --out out.json --iterations -5", "deform.iterations");
   refused("deform case.json --out none/out.json", "file.write");
   refused("evaluate none", "file.missing");
   fs::create_directory(folder / "empty");
@@ -122,9 +128,19 @@ TEST_F(CommandLine, refuses_bad_input_and_writes_nothing) {
   refused(clone + "--mask target.png", "clone.mask-size");
   refused(clone + "--mask mask.png --at 1.5,2", "clone.at");
   refused(clone + "--mask mask.png --at 99999999,2", "clone.at");
-  refused(clone + "--mask mask.png --mode mixd", "clone.unknown-mode");
+  refused("warp --image source.png --outline case.json --sketch case.json --out out.jpg", "image.no-alpha");
   refused(clone + "--mask mask.png --strength 1.5", "clone.bad-option");
   refused("clone --source source.png --target target.png --mask mask.png --out out.gif", "image.unknown-extension");
+}
+
+TEST_F(CommandLine, does_not_wait_for_a_pipe_and_shows_what_a_name_hides) {
+  ASSERT_EQ(::mkfifo((folder / "pipe.png").c_str(), 0600), 0);
+  refused("clone --source pipe.png --target target.png --mask mask.png --out out.png", "image.unreadable");
+  folder.write("nul.jsonl", "{\"oversketch_script\": 1}\n{\"do\": \"document.new\", \"width\": 9, \"height\": 9}\n"
+                            "{\"do\": \"export\", \"path\": \"x\\u0000y.png\"}\n");
+  const Outcome outcome = run("run nul.jsonl");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.text.find("x\\x00y.png"), std::string::npos) << outcome.text;
 }
 
 TEST_F(CommandLine, deforms_a_case) {
@@ -151,6 +167,10 @@ TEST_F(CommandLine, evaluates_cases_with_a_table_and_a_summary) {
   EXPECT_EQ(report["cases"].size(), 2u);
   EXPECT_EQ(report["summary"]["cases"], 2);
   EXPECT_TRUE(report["summary"].contains("cases_with_flips"));
+  folder.write("a.json", R"({"outline": [[0,0],[50,0],[50,50],[0,50]], "sketch": [[0,0],[60,0],[50,50],[0,50]]})");
+  ASSERT_EQ(run("evaluate a.json case.json --report mixed.json").code, 0);
+  EXPECT_TRUE(json::parse(folder.read("mixed.json"))["summary"].contains("truth_error")) << "the first case has none";
+  EXPECT_TRUE(report["summary"]["stages_ms"].contains("mesh"));
   for (const char* statistic : {"median", "p95", "max"})
     EXPECT_TRUE(report["summary"]["sigma_ratio_mean"].contains(statistic)) << statistic;
 }

@@ -80,6 +80,18 @@ TEST_F(Runner, writes_nothing_outside_its_folder) {
   EXPECT_FALSE(fs::exists(folder / "stray.png"));
   fs::create_directory_symlink(folder.path(), folder / "out/link");
   EXPECT_EQ(refusal(body() + "{\"do\": \"report\", \"path\": \"link/stray.json\"}"), "script.path");
+  folder.write("kept.png", "keep");
+  fs::create_symlink(folder / "kept.png", folder / "out/file.png");
+  fs::create_symlink("../new.png", folder / "out/dangling.png");
+  EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"file.png\"}"), "script.path");
+  EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"dangling.png\"}"), "script.path");
+  EXPECT_EQ(folder.read("kept.png"), "keep");
+  EXPECT_FALSE(fs::exists(folder / "new.png"));
+  fs::create_directory(folder / "elsewhere");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "out/s.files");
+  EXPECT_EQ(refusal(body() + "{\"do\": \"save\", \"path\": \"s.jsonl\"}"), "file.write");
+  EXPECT_TRUE(fs::is_empty(folder / "elsewhere"));
+  EXPECT_EQ(refusal(body() + "{\"do\": \"export.layer\", \"path\": \"layer.jpg\"}"), "image.no-alpha");
   EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"deep/er/a.png\"}"), "accepted");
   EXPECT_TRUE(fs::exists(folder / "out/deep/er/a.png"));
 }
