@@ -185,7 +185,6 @@ void Canvas::arrow(Point tail, Point head, double width, Rgba color) {
   if (!(l > 0)) return;
   const double point = std::min(4 * width, l);
   const Point along = (1 / l) * (head - tail), neck = head - point * along, side = 0.45 * point * turned(along);
-  // Wound like a segment's ring, so that shaft and point are one shape.
   const std::vector<Points> rings = {segment_ring(tail, neck, width), {neck + side, head, neck - side}};
   fill(rings, color);
 }

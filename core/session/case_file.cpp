@@ -50,7 +50,7 @@ Result<std::vector<PinPair>> read_pins(const Json& object) {
   if (!list->is_array()) return wrong;
   for (const Json& item : *list) {
     PinPair pin;
-    if (!item.is_object() || !item.contains("outline") || !item.contains("sketch")) return wrong;
+    if (!item.contains("outline") || !item.contains("sketch")) return wrong;
     if (read_value(item["outline"], pin.outline) || read_value(item["sketch"], pin.sketch)) return wrong;
     pins.push_back(pin);
   }

@@ -108,6 +108,19 @@ TEST(FigureCanvas, StrokesHaveTheirWidth) {
   EXPECT_NEAR(ink(cross), 2 * 20 * 4 - 16, 0.1);
 }
 
+TEST(FigureCanvas, ArrowsReachFromTailToHead) {
+  Canvas canvas(100, 100, kNothing);
+  canvas.arrow({10, 50}, {80, 50}, 4, kWhite);
+  // A shaft of 54 × 4 and a point 16 long and 14.4 wide.
+  EXPECT_NEAR(ink(canvas), 54 * 4 + 0.5 * 16 * 14.4, 0.5);
+  EXPECT_NEAR(canvas.pixels().at(10, 50).a, 1, 1e-5);
+  EXPECT_EQ(canvas.pixels().at(9, 50).a, 0);
+  EXPECT_GT(canvas.pixels().at(79, 50).a, 0.1);
+  EXPECT_EQ(canvas.pixels().at(80, 50).a, 0);
+  EXPECT_GT(canvas.pixels().at(65, 45).a, 0.9);
+  EXPECT_EQ(canvas.pixels().at(60, 45).a, 0);
+}
+
 TEST(FigureCanvas, ColoursMixByAlpha) {
   Canvas canvas(4, 4, {1, 0, 0, 1});
   canvas.rectangle(0, 0, 4, 4, {0, 1, 0, 0.25f});
@@ -172,6 +185,13 @@ TEST(FigureFont, LettersStandOnTheBaseline) {
   const auto o = font->outlines("o", 100, {0, 0});
   ASSERT_EQ(o.size(), 2u);
   EXPECT_LT(signed_area(o[0]) * signed_area(o[1]), 0);
+  // It is its own mirror image, curves included.
+  for (const Points& ring : o) {
+    const ClosedCurve curve(ring);
+    const double middle = bounds(ring).centre().x;
+    for (const Point p : ring)
+      EXPECT_LT(curve.nearest({2 * middle - p.x, p.y}).distance, 0.25);
+  }
   EXPECT_TRUE(font->outlines(" ", 100, {0, 0}).empty());
 }
 
@@ -182,6 +202,8 @@ TEST(FigureFont, BytesThatAreNoTextShowAsSuch) {
   for (const char* bytes : {"\x80", "\xFF", "\xC3", "\xC0"})
     EXPECT_NEAR(font->width(bytes, 20), mark, 1e-6) << bytes;
   EXPECT_NEAR(font->width("\xE2\x82", 20), 2 * mark, 0.5);
+  EXPECT_NEAR(font->width("\xC3\xC3", 20), 2 * mark, 0.5);
+  EXPECT_NEAR(font->width("\xE2\x82m", 20), 2 * mark + font->width("m", 20), 0.5);
   EXPECT_NE(font->width("é", 20), font->width("\xC3", 20) + font->width("\xA9", 20));
 }
 

@@ -94,7 +94,7 @@ TEST_F(Figures, CompareDrawsARowForEachCase) {
   const int squares = count(one, 0x5C, 0x8A, 0xD0) + count(one, 0xF7, 0xEB, 0xC6);
   EXPECT_GT(squares, 0.6 * 4 * 200 * 400);
   EXPECT_LT(squares, 1.1 * 4 * 200 * 400);
-  EXPECT_GT(count(one, 0xDF, 0x29, 0x35), 3 * 2 * 800);
+  EXPECT_GT(count(one, 0xDF, 0x29, 0x35), 3 * 800);
 }
 
 TEST_F(Figures, SameBytesEachTime) {
@@ -120,16 +120,18 @@ TEST_F(Figures, PaperHasItsPicturesAndItsTable) {
   const json table = json::parse(folder_.read("out/table.json"));
   ASSERT_EQ(table["rows"].size(), 3u);
   const double cells[] = {20, 10, 5};
-  const int vertices[] = {16 * 7, 31 * 13, 61 * 25};
   for (std::size_t i = 0; i < 3; ++i) {
     const json& row = table["rows"][i];
     EXPECT_EQ(row["cell_px"], cells[i]);
-    EXPECT_EQ(row["vertices"], vertices[i]);
+    // As many as a grid over the rectangle, or one more each way.
+    EXPECT_GE(row["vertices"], (300 / cells[i] + 1) * (120 / cells[i] + 1));
+    EXPECT_LE(row["vertices"], (300 / cells[i] + 2) * (120 / cells[i] + 2));
+    const std::string line = "| " + std::to_string(static_cast<int>(cells[i])) + " | " + row["vertices"].dump() + " |";
     EXPECT_GT(row["energy_start_px2"], row["energy_px2"]);
     for (const char* stage : {"init_s", "factor_s", "iterations_50_s"})
       EXPECT_GT(row[stage], 0) << stage;
+    EXPECT_NE(folder_.read("out/table.md").find(line), std::string::npos) << folder_.read("out/table.md");
   }
-  EXPECT_NE(folder_.read("out/table.md").find("| 5 | 1525 |"), std::string::npos) << folder_.read("out/table.md");
 }
 
 } // namespace
