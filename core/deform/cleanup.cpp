@@ -289,7 +289,8 @@ Result<CleanSketch> clean_sketch(const Points& given, double orientation) {
   const double around = kept.points.size() < 3 ? 0.0 : perimeter(kept.points);
   const double area = kept.points.size() < 3 ? 0.0 : std::abs(signed_area(kept.points));
   if (area < std::max(kLeastArea, kLeastFill * around * around / 16))
-    return Error{"sketch.no-area", "The sketch encloses hardly any area for its length; draw it larger or plainer.", ""};
+    return Error{"sketch.no-area", "The sketch encloses hardly any area for its length; draw it larger or plainer.",
+                 ""};
   CleanSketch clean = make_clean(std::move(kept), orientation, total);
   for (const auto& [start, piece] : away->pieces()) {
     ++clean.loops_cut;

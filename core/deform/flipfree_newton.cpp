@@ -7,8 +7,9 @@
 namespace oversketch {
 namespace {
 
-/// Weight of a handle's distance along the curve beside that across it.
-constexpr double kAlong = 0.02;
+/// Weight of a handle's distance along the curve beside that across it: over random bends 0.02 leaves 1 % more distance
+/// from the truth, 0.05 little less but more distortion and more steps.
+constexpr double kAlong = 0.04;
 /// Longest slide at a time, cells.
 constexpr double kLongestSlide = 0.7;
 constexpr int kSlides = 3;
@@ -16,8 +17,8 @@ constexpr int kSlides = 3;
 constexpr double kSlideRise = 0.02;
 /// Untangling ends when every D is above this.
 constexpr double kUntangled = 1e-3;
-/// Steps after which untangling is given up.
-constexpr int kTangledSteps = 20;
+/// Steps after which untangling is given up: the safe way from a similarity is then the shorter one.
+constexpr int kTangledSteps = 8;
 constexpr double kArmijo = 1e-4;
 constexpr int kHalvings = 30;
 /// ε beside the worst D while untangling, and its least value.

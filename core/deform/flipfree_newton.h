@@ -47,12 +47,11 @@ struct SlideStage {
 };
 
 /// Projected Newton steps on
-///   E = DistortionEnergy + Σ_i W span_i [(n_i·d_i)² + 0.02 (t_i·d_i)²],   d_i = x(handle i) − γ(s_i)   (pinned: 4 W
+///   E = DistortionEnergy + Σ_i W span_i [(n_i·d_i)² + 0.04 (t_i·d_i)²],   d_i = x(handle i) − γ(s_i)   (pinned: 4 W
 ///   span |d|²),
 /// each followed by sliding: three times s ← s + clip(t·d, ±0.7 cell), in order (order_handles()), kept unless E rises
-/// by more than 2 %.  While a corner's D is below 1e-3, ε > 0 untangles (given up
-/// after 20 steps); from then on no corner loses more than 95 % of
-/// its D in a step, so nothing can flip again.
+/// by more than 2 %.  While a corner's D is below 1e-3, ε > 0 untangles (given up after 8 steps); from then on no
+/// corner loses more than 95 % of its D in a step, so nothing can flip again.
 /// @returns false when stopped; the state is then that after the last whole step.
 bool run_stage(const SlideProblem& problem, const SlideStage& stage, SlideState& state, SlideReport& report,
                BlockCholesky& hessian, const Watch& watch);

@@ -77,8 +77,12 @@ private:
   SlideState state_;
   SlideReport report_;
   double pin_factor_ = 1;
-  /// SlideStage::gain of the last stage.
-  double gain_ = 0;
+  /// When the last stage stops: SlideStage::gain and floor_gain.
+  struct Gains {
+    double gain = 0;
+    double floor_gain = 1e-8;
+  };
+  Gains gains_;
 };
 
 } // namespace oversketch

@@ -17,7 +17,8 @@ struct Step {
   float penalty = 0;
 };
 
-constexpr double kStretchPenalty = 0.15;
+/// Over random bends 0.15 leaves the match alone 1 % further from the truth, 0.05 costs more than it gains.
+constexpr double kStretchPenalty = 0.1;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 std::array<Step, 11> make_steps() {

@@ -28,7 +28,7 @@ struct PathBand {
 
 /// Cheapest monotone path from (0, first) to (rows − 1, last) by the steps (1,1) (1,2) (2,1) (2,3) (3,2) (1,3) (3,1)
 /// (1,4) (4,1) (1,6) (6,1), (rows, columns); a step of length l = (a + b)/2 costs l times the mean of the costs at its
-/// ends plus 0.15 l log²(b/a).  Keeps its memory between calls.
+/// ends plus 0.1 l log²(b/a).  Keeps its memory between calls.
 /// @threads one at a time.
 class PathFinder {
 public:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -240,7 +241,7 @@ TEST(Flipfree, HandlesHaveSlidToWhereTheyRest) {
     for (std::size_t i = 0; i < solution.handles.size(); ++i) {
       const double s = solution.handle_sketch_s[i];
       const Point d = solution.handles[i] - curve.at(s), t = curve.smooth_tangent(s, 0.35 * cell);
-      const double along = 0.02 * solution.options.follow + solution.holds[i], hold = solution.holds[i];
+      const double along = 0.04 * solution.options.follow + solution.holds[i], hold = solution.holds[i];
       left += std::abs(along * dot(t, d) + hold * (solution.anchors[i] - s)) / (along + hold) / cell;
       strayed += std::abs(s - solution.anchors[i]) / cell;
     }
@@ -344,6 +345,24 @@ TEST(Flipfree, PinsAreMet) {
         EXPECT_LT(distance(second.outline[at], pin.sketch), 0.1 * cell) << name;
       }
     }
+  }
+}
+
+// Where the shape is nearly the source's own, places drift on along a valley that has next to no slope.
+TEST(Flipfree, APinOnASmoothShapeTakesFewSteps) {
+  const Points outline = resample(ClosedCurve(testing::ellipse_shape()), 400);
+  const Points sketch = transformed(outline, Similarity{std::polar(1.0, std::numbers::pi / 2), {40, -30}});
+  const FlipfreeSystem system = make_system(outline);
+  FlipfreeSolution last = solve(system, sketch);
+  const ClosedCurve& curve = last.sketch->curve;
+  const double s = curve.nearest(last.outline[170]).s;
+  for (const double shift : {0.03, 0.0, -0.02, 0.0}) {
+    const PinPair pin{outline[170], curve.at(s + shift * curve.length())};
+    last = solve(system, sketch, {pin}, &last);
+    EXPECT_EQ(last.matches, 0);
+    EXPECT_LE(last.iterations, 12) << "moved to " << shift;
+    EXPECT_LE(last.pin_distance, 0.1);
+    expect_sound(system, last, "pinned ellipse");
   }
 }
 

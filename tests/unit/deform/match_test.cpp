@@ -184,7 +184,7 @@ double cheapest_by_trial(const CostTable& costs, int i, int j, int last) {
            {1, 1}, {1, 2}, {2, 1}, {2, 3}, {3, 2}, {1, 3}, {3, 1}, {1, 4}, {4, 1}, {1, 6}, {6, 1}}) {
     if (i + a >= costs.rows || j + b > last) continue;
     const double slope = std::log(static_cast<double>(b) / a), length = 0.5 * (a + b);
-    const double step = length * (0.5 * (costs.row(i)[j] + costs.row(i + a)[j + b]) + 0.15 * slope * slope);
+    const double step = length * (0.5 * (costs.row(i)[j] + costs.row(i + a)[j + b]) + 0.1 * slope * slope);
     best = std::min(best, step + cheapest_by_trial(costs, i + a, j + b, last));
   }
   return best;
