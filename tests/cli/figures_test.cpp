@@ -113,7 +113,8 @@ TEST_F(Figures, PaperHasItsPicturesAndItsTable) {
   folder_.write("cases/wide.json", R"({"outline": [[0,0],[300,0],[300,120],[0,120]],
                                        "sketch": [[0,0],[150,40],[300,0],[300,120],[150,160],[0,120]]})");
   ASSERT_EQ(run("paper --cases cases --case wide --out out --report r.json"), 0) << folder_.read("stderr.txt");
-  for (const json& name : json::parse(folder_.read("r.json"))["files"])
+  const json report = json::parse(folder_.read("r.json"));
+  for (const json& name : report["files"])
     EXPECT_TRUE(std::filesystem::exists(folder_ / ("out/" + name.get<std::string>()))) << name;
   for (const char* name : {"mesh", "gradients", "weight", "cells"})
     EXPECT_EQ(picture("out/paper-" + std::string(name) + ".png").width(), 2188) << name;
