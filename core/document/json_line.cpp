@@ -16,9 +16,7 @@ Result<Json> parse_json_line(std::string_view line) {
   try {
     object = Json::parse(line, watch_keys);
   } catch (const Json::exception& problem) {
-    // The library's text is "[json.exception.…] parse error at line 1, column 17: …".
-    std::string reason = problem.what();
-    if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+    std::string reason = json_reason(problem);
     // A script's line is the place already.
     if (const auto first = reason.find("at line 1, "); first != std::string::npos)
       reason.erase(first, 11).insert(first, "at ");
@@ -27,6 +25,13 @@ Result<Json> parse_json_line(std::string_view line) {
   if (!object.is_object()) return Error{"script.not-an-object", "a line must be an object {…}", ""};
   if (repeated) return Error{"script.repeated-key", "\"" + *repeated + "\" stands there twice", ""};
   return object;
+}
+
+std::string json_reason(const Json::exception& problem) {
+  // The library's text is "[json.exception.…] parse error at line 1, column 17: …".
+  std::string reason = problem.what();
+  if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+  return reason;
 }
 
 std::string print_json_line(const Json& object) {

@@ -19,6 +19,9 @@ using Json = nlohmann::ordered_json;
 /// @errors script.syntax (with the column), script.not-an-object, script.repeated-key.
 Result<Json> parse_json_line(std::string_view line);
 
+/// The library's words for what is wrong, without its own error number.
+std::string json_reason(const Json::exception& problem);
+
 std::string print_json_line(const Json& object);
 
 /// The value of "do".

@@ -2,6 +2,7 @@
 
 #include "core/base/file.h"
 #include "core/document/field_values.h"
+#include "core/document/json_line.h"
 #include "core/geometry/curve.h"
 #include "core/session/report.h"
 
@@ -14,9 +15,7 @@ Result<Json> read_json(const std::filesystem::path& path) {
   try {
     return Json::parse(*text);
   } catch (const Json::exception& problem) {
-    std::string reason = problem.what();
-    if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
-    return Error{"case.syntax", "not JSON: " + reason.substr(0, 300), path.string()};
+    return Error{"case.syntax", "not JSON: " + json_reason(problem).substr(0, 300), path.string()};
   }
 }
 

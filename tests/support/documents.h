@@ -4,6 +4,8 @@
 
 #include "core/document/command.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -48,6 +50,19 @@ inline DocumentNew new_document(int width, int height) {
   command.width = width;
   command.height = height;
   return command;
+}
+
+/// The document after a command that must be taken.
+inline Document applied(const Document& document, const Command& command) {
+  auto after = apply(document, command);
+  EXPECT_TRUE(after.ok()) << (after.ok() ? "" : to_string(after.error()));
+  return after.ok() ? *after : document;
+}
+
+/// The code with which a command is refused, or "accepted".
+inline std::string refusal(const Document& document, const Command& command) {
+  const auto after = apply(document, command);
+  return after.ok() ? "accepted" : after.error().code;
 }
 
 /// One random command; many are refused by a given document, as a person's would be.

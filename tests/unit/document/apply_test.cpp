@@ -16,17 +16,6 @@ using namespace testing;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Document applied(const Document& document, const Command& command) {
-  auto after = apply(document, command);
-  EXPECT_TRUE(after.ok()) << (after.ok() ? "" : to_string(after.error()));
-  return after.ok() ? *after : document;
-}
-
-std::string refusal(const Document& document, const Command& command) {
-  const auto after = apply(document, command);
-  return after.ok() ? "accepted" : after.error().code;
-}
-
 Document with_layer() {
   Document document = applied({}, new_document(200, 150));
   return applied(document, LayerAdd{loaded_ref("pictures/fish.png", plain_image(100, 80)), std::nullopt});

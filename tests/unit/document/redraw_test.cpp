@@ -14,17 +14,6 @@ namespace {
 
 using namespace testing;
 
-Document applied(const Document& document, const Command& command) {
-  auto after = apply(document, command);
-  EXPECT_TRUE(after.ok()) << (after.ok() ? "" : to_string(after.error()));
-  return after.ok() ? *after : document;
-}
-
-std::string refusal(const Document& document, const Command& command) {
-  const auto after = apply(document, command);
-  return after.ok() ? "accepted" : after.error().code;
-}
-
 /// A round region of radius 40 at (60, 60) in a picture of 120 × 120, pasted where it lies.
 Document with_disc() {
   Document document = applied({}, new_document(160, 140));
