@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace oversketch {
+
+enum class Theme { kDark, kLight };
+
+/// How a drawn stroke is smoothed, scaled with the zoom: not at all; a short average; a long one that catches up at the
+/// end.
+enum class Smoothing { kNone, kBasic, kStabiliser };
+
+/// What a person sets once.  Kept in the user's configuration folder.
+struct Preferences {
+  Theme theme = Theme::kDark;
+  /// Times the display's own scale, 0.5…3.
+  double ui_scale = 1;
+  /// The wheel zooms; otherwise it scrolls, and Ctrl+wheel zooms.
+  bool wheel_zooms = true;
+  Smoothing smoothing = Smoothing::kBasic;
+  /// How near a stroke's ends must come to a curve to replace a part of it, screen pixels, 1…100.
+  double tolerance_px = 10;
+  /// Of pictures that the undo history alone holds.
+  double history_mib = 2048;
+  /// The newest first.
+  std::vector<std::filesystem::path> recent_files;
+
+  bool operator==(const Preferences&) const = default;
+};
+
+} // namespace oversketch
