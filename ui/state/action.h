@@ -68,10 +68,15 @@ struct SelectTab {
 struct CloseTab {
   std::size_t tab = 0;
   bool without_asking = false;
+  /// Saves it first, and closes only when that went well.
+  bool save_first = false;
 };
 struct Quit {
   bool without_asking = false;
+  bool save_first = false;
 };
+/// The question or the file browser is left without an answer, or after it.
+struct Dismiss {};
 
 // The view.
 struct PickTool {
@@ -128,13 +133,14 @@ struct Say {
 
 } // namespace action
 
-using Action = std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo,
-                            action::Redo, action::Jump, action::CancelWork, action::NewDocument, action::Open,
-                            action::AddSource, action::SetTarget, action::Save, action::SaveAs, action::ExportAgain,
-                            action::Export, action::OpenSample, action::SelectTab, action::CloseTab, action::Quit,
-                            action::PickTool, action::SetOverlays, action::SetPreferences, action::SetView, action::Fit,
-                            action::ZoomBy, action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore,
-                            action::SelectPin, action::WantAlternatives, action::ShowWindow, action::Say>;
+using Action =
+    std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo, action::Redo,
+                 action::Jump, action::CancelWork, action::NewDocument, action::Open, action::AddSource,
+                 action::SetTarget, action::Save, action::SaveAs, action::ExportAgain, action::Export,
+                 action::OpenSample, action::SelectTab, action::CloseTab, action::Quit, action::Dismiss,
+                 action::PickTool, action::SetOverlays, action::SetPreferences, action::SetView, action::Fit,
+                 action::ZoomBy, action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore,
+                 action::SelectPin, action::WantAlternatives, action::ShowWindow, action::Say>;
 
 /// Where panels and tools put what they want done; carried out after the frame.
 class ActionSink {

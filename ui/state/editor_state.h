@@ -18,11 +18,38 @@ namespace oversketch {
 struct Tab {
   std::unique_ptr<LiveSession> session;
   DocumentView view;
+  /// What the window's title and the tab say: the file's name without its ending, or "Untitled".
+  std::string name;
   /// Where it was opened from or saved to; empty before that.
   std::filesystem::path path;
   std::filesystem::path exported_to;
   /// Cannot be saved over its file (a newer version's): save asks for another name.
   bool read_only = false;
+};
+
+/// Something that must be answered before work goes on; drawn as a dialog with one button per answer.  Each answer is
+/// an action that the dialog emits, and with it action::Dismiss; so does leaving it with Esc.
+struct Question {
+  struct Answer {
+    /// Of the button; its widget is called "question." + id.
+    std::string id;
+    std::string label;
+    /// None: nothing is done.
+    std::vector<Action> actions;
+    /// What Enter chooses.
+    bool preferred = false;
+  };
+  std::string title;
+  std::string text;
+  std::vector<Answer> answers;
+};
+
+/// A file is wanted: the browser is open for it.  The choice is emitted as the action with its path filled in.
+struct FileRequest {
+  enum class For { kOpen, kAddSource, kSetTarget, kSaveAs, kExport };
+  For purpose = For::kOpen;
+  /// Where the browser begins: a folder, or a file's name that is proposed.
+  std::filesystem::path proposal;
 };
 
 /// All that the window shows and no document holds.
@@ -38,6 +65,8 @@ struct EditorState {
   bool show_shortcuts = false;
   bool show_preferences = false;
   bool show_about = false;
+  std::optional<Question> question;
+  std::optional<FileRequest> file_request;
 
   Tab* tab() { return front < tabs.size() ? &tabs[front] : nullptr; }
   const Tab* tab() const { return front < tabs.size() ? &tabs[front] : nullptr; }

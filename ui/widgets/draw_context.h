@@ -2,6 +2,7 @@
 
 #include "ui/state/action.h"
 #include "ui/theme/theme.h"
+#include "ui/widgets/frame_reply.h"
 #include "ui/widgets/widget_map.h"
 
 namespace oversketch {
@@ -11,6 +12,7 @@ struct DrawContext {
   const ThemeLook& look;
   WidgetMap& widgets;
   ActionSink& sink;
+  FrameReply& reply;
   /// Seconds since the program began, the frame's time.
   double now_s = 0;
 };
