@@ -3,7 +3,6 @@
 #include "app/cli/bench_cases.h"
 
 #include "core/clone/clone.h"
-#include "core/clone/pixel_solver.h"
 #include "core/warp/warp.h"
 
 #include <cmath>
@@ -63,11 +62,17 @@ Result<void> run_clone(const CloneSize& size, const BenchInput& input, BenchReco
   const auto source = unwarped_region(Image(make_picture(box.x + box.width + 8, box.y + box.height + 8, 1)), mask);
   if (!source) return source.error();
   const Raster<Rgba> picture = make_picture(box.x + box.width + 40, box.y + box.height + 40, 2);
-  const auto make = [&] { return PixelSolver::make(mask, input.watch); };
+  const auto make = [&]() -> Result<CloneSystem> {
+    auto system = CloneSystem::make(mask);
+    if (!system) return system;
+    if (auto ready = system->prepare(BlendMode::kMixed, CloneQuality::kExport, input.watch); !ready)
+      return ready.error();
+    return system;
+  };
   if (auto done = record.repeat(size.name + ".setup", "blob", std::min(input.runs, 3), make); !done)
     return done.error();
-  const auto solver = make();
-  if (!solver) return solver.error();
+  const auto system = make();
+  if (!system) return system.error();
 
   Raster<Rgba> target = picture;
   int moves = 0;
@@ -75,7 +80,7 @@ Result<void> run_clone(const CloneSize& size, const BenchInput& input, BenchReco
     BlendOptions options;
     options.mode = mode;
     const int shift = moves++ % 16;
-    return clone_into(target, *source, mask, shift, 16 - shift, *solver, options, input.watch);
+    return clone_into(target, *source, shift, 16 - shift, *system, options, CloneQuality::kExport, input.watch);
   };
   auto done = record.repeat(size.name + ".move", "blob", input.runs, [&] { return move(BlendMode::kImport); });
   if (!done) return done.error();

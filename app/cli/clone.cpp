@@ -116,11 +116,12 @@ Result<Json> clone(const Options& options, const Watch& watch) {
     if (!pasted) return pasted.error();
     done = *pasted, solve_ms = ms_since(start);
   } else {
-    const auto solver = PixelSolver::make(mask, watch);
-    if (!solver) return solver.error();
+    const auto system = CloneSystem::make(mask);
+    if (!system) return system.error();
+    if (const auto ready = system->prepare(blend->mode, CloneQuality::kExport, watch); !ready) return ready.error();
     setup_ms = ms_since(setup_start);
     const auto start = std::chrono::steady_clock::now();
-    const auto cloned = clone_into(pixels, *region, mask, shift->x, shift->y, *solver, *blend, watch);
+    const auto cloned = clone_into(pixels, *region, shift->x, shift->y, *system, *blend, CloneQuality::kExport, watch);
     if (!cloned) return cloned.error();
     done = *cloned, solve_ms = ms_since(start);
   }

@@ -76,24 +76,23 @@ struct Correction {
   double error = 0;
 };
 
-Result<Correction> solve(const PlacedPair& pair, const PixelSolver& solver, const BlendOptions& options,
+Result<Correction> solve(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
                          const Watch& watch) {
   const StageTimer timer(watch.times, "clone.solve");
-  const PixelGraph& graph = solver.graph();
+  const PixelGraph& graph = system.graph();
   const std::vector<Channels> side =
       options.mode == BlendMode::kMixed ? mixed_side(pair, graph) : membrane_side(pair, graph);
   if (watch.stopped()) return cancelled();
-  Correction out{solver.solve(side), 0};
-  if (watch.stopped()) return cancelled();
-  out.error = solver.error_bound(out.values, side);
-  return out;
+  Result<CloneSystem::Solution> solved = system.solve(side, watch);
+  if (!solved) return solved.error();
+  return Correction{std::move(solved->u), solved->error};
 }
 
 } // namespace
 
-Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
-                               const PixelSolver& solver, const BlendOptions& given, const Watch& watch) {
-  CHECK(mask == solver.mask(), "the solver is made from the mask");
+Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, int dx, int dy,
+                               const CloneSystem& system, const BlendOptions& given, CloneQuality, const Watch& watch) {
+  const Mask& mask = system.mask();
   if (given.mode == BlendMode::kNone) return paste_into(target, source, mask, dx, dy, given, watch);
   if (const Result<void> good = check_call(target, source, mask, given, 1); !good) return good.error();
   const BlendOptions options = without_detours(given);
@@ -101,16 +100,16 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
   CloneReport report{mask.count(), 0, painted_rect(target, mask, dx, dy)};
   if (report.changed.empty()) return report;
   if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
-  if (const Result<void> good = check_ring(pair, solver.graph()); !good) return good.error();
+  if (const Result<void> good = check_ring(pair, system.graph()); !good) return good.error();
 
   Correction correction;
   if (needs_solution(options)) {
-    Result<Correction> solved = solve(pair, solver, options, watch);
+    Result<Correction> solved = solve(pair, system, options, watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
   }
   const StageTimer timer(watch.times, "clone.paint");
-  const Painting painting{pair, solver.graph(), options, correction.values};
+  const Painting painting{pair, system.graph(), options, correction.values};
   const Result<double> largest = paint(target, painting, dx, dy, watch);
   if (!largest) return largest.error();
   report.residual_levels = 255 * correction.error * largest_slope(options.domain, *largest);

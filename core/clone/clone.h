@@ -3,7 +3,7 @@
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/clone/blend.h"
-#include "core/clone/pixel_solver.h"
+#include "core/clone/clone_system.h"
 #include "core/geometry/mask.h"
 #include "core/image/image.h"
 #include "core/image/warped_region.h"
@@ -38,16 +38,18 @@ struct CloneReport {
 /// an error the target is as before.
 ///
 /// @param source  must reach over mask.bounds() grown by 1 (over mask.bounds() in mode none).
-/// @param solver  made from the same mask (CHECK).
+/// @param system  made from the mask Ω.
 /// @errors clone.bad-option; clone.empty-target; clone.source-too-small; clone.not-finite (a pixel of the source or the
 ///   target in Ω or on its ring is not a number or infinite, or the result would be); cancelled.
-/// @cost one pass of right-hand side, forward and back substitution, residual and painting; 112 bytes a pixel while it
-///   runs (96 more before that in mode mixed).
-/// @threads one call a target at a time; source and solver are only read.
-Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
-                               const PixelSolver& solver, const BlendOptions& options = {}, const Watch& watch = {});
+///   And the errors of the system's parts that are made for it.
+/// @cost one pass of right-hand side, solution and painting; 112 bytes a pixel while it runs (96 more before that in
+///   mode mixed).
+/// @threads one call a target at a time; source and system may be shared.
+Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, int dx, int dy,
+                               const CloneSystem& system, const BlendOptions& options = {},
+                               CloneQuality quality = CloneQuality::kExport, const Watch& watch = {});
 
-/// Mode none without a solver: plain paste; options.mode and strength are not looked at.
+/// Mode none without a system: plain paste; options.mode and strength are not looked at.
 Result<CloneReport> paste_into(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
                                const BlendOptions& options = {}, const Watch& watch = {});
 

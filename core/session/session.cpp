@@ -1,7 +1,7 @@
 #include "core/session/session.h"
 
 #include "core/clone/clone.h"
-#include "core/clone/pixel_solver.h"
+#include "core/clone/clone_system.h"
 #include "core/session/content_cache.h"
 #include "core/session/layer_input.h"
 #include "core/warp/warp.h"
@@ -14,7 +14,7 @@ namespace oversketch {
 struct Session::Shape {
   Mask mask;
   WarpedRegion warped;
-  std::shared_ptr<const PixelSolver> solver;
+  std::shared_ptr<const CloneSystem> system;
 };
 
 /// How one layer's region is deformed: its inputs, and the solve it starts from.
@@ -221,8 +221,8 @@ Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& lay
   const Solve& solve = solve_of(layer);
   const Hash key = shape_key(layer, solve.deformation);
   auto shape = caches_->shapes.find(key);
-  const bool needs_solver = layer.settings.mode != CloneMode::kNone;
-  if (shape && (shape->solver || !needs_solver || shape->mask.empty())) return shape;
+  const bool needs_system = layer.settings.mode != CloneMode::kNone;
+  if (shape && (shape->system || !needs_system || shape->mask.empty())) return shape;
 
   auto made = std::make_shared<Shape>();
   if (shape) {
@@ -243,11 +243,11 @@ Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& lay
       made->warped = std::move(*warped);
     }
   }
-  if (needs_solver && !made->mask.empty()) {
+  if (needs_system && !made->mask.empty()) {
     StageTimer timer(watch.times, "mask");
-    auto solver = PixelSolver::make(made->mask, watch);
-    if (!solver) return at(place_of(layer), solver.error());
-    made->solver = std::make_shared<const PixelSolver>(std::move(*solver));
+    auto system = CloneSystem::make(made->mask);
+    if (!system) return at(place_of(layer), system.error());
+    made->system = std::make_shared<const CloneSystem>(std::move(*system));
     ++counters_.mask_setups;
   }
   return caches_->shapes.put(key, std::move(made));
@@ -261,9 +261,10 @@ Result<Image> Session::blend(const Layer& layer, const Image& below, const Watch
   Raster<Rgba> pixels = below.pixels();
   const Shape& s = **shape;
   const auto [dx, dy] = std::pair(layer.placement.dx, layer.placement.dy);
-  const auto report = layer.settings.mode == CloneMode::kNone
-                          ? paste_into(pixels, s.warped, s.mask, dx, dy, blend_options(layer), watch)
-                          : clone_into(pixels, s.warped, s.mask, dx, dy, *s.solver, blend_options(layer), watch);
+  const auto report =
+      layer.settings.mode == CloneMode::kNone
+          ? paste_into(pixels, s.warped, s.mask, dx, dy, blend_options(layer), watch)
+          : clone_into(pixels, s.warped, dx, dy, *s.system, blend_options(layer), CloneQuality::kExport, watch);
   if (!report) return at(place_of(layer), report.error());
   ++counters_.clone_solves;
   return Image(std::move(pixels));

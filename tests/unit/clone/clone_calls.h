@@ -21,9 +21,9 @@ inline BlendOptions with_mode(BlendMode mode, Domain domain = Domain::kEncoded) 
 /// The target after cloning; the report too if asked for.
 inline Raster<Rgba> cloned(Raster<Rgba> target, const WarpedRegion& source, const Mask& mask, int dx, int dy,
                            const BlendOptions& options, CloneReport* report = nullptr) {
-  const Result<PixelSolver> solver = PixelSolver::make(mask);
-  EXPECT_TRUE(solver.ok());
-  const Result<CloneReport> done = clone_into(target, source, mask, dx, dy, *solver, options);
+  const Result<CloneSystem> system = CloneSystem::make(mask);
+  EXPECT_TRUE(system.ok());
+  const Result<CloneReport> done = clone_into(target, source, dx, dy, *system, options);
   EXPECT_TRUE(done.ok()) << (done.ok() ? "" : to_string(done.error()));
   if (done.ok() && report != nullptr) *report = *done;
   return target;

@@ -17,11 +17,11 @@ TEST(Clone, RefusesWhatCannotBeBlendedAndLeavesTheTargetAlone) {
   const Mask mask = rect_mask({2, 2, 5, 5});
   const WarpedRegion source = region_for(mask, 1);
   const Raster<Rgba> original = noise(12, 12, 2);
-  const Result<PixelSolver> solver = PixelSolver::make(mask);
-  ASSERT_TRUE(solver.ok());
+  const Result<CloneSystem> system = CloneSystem::make(mask);
+  ASSERT_TRUE(system.ok());
   Raster<Rgba> target = original;
   const auto code = [&](const WarpedRegion& g, const BlendOptions& options) {
-    const Result<CloneReport> result = clone_into(target, g, mask, 0, 0, *solver, options);
+    const Result<CloneReport> result = clone_into(target, g, 0, 0, *system, options);
     return result.ok() ? std::string("ok") : result.error().code;
   };
   BlendOptions bad;
@@ -36,7 +36,7 @@ TEST(Clone, RefusesWhatCannotBeBlendedAndLeavesTheTargetAlone) {
       WarpedRegion broken = source;
       broken.pixels.at(at, 0).g = wrong;
       EXPECT_EQ(code(broken, {}), "clone.not-finite");
-      EXPECT_EQ(clone_into(target, broken, mask, 0, 0, *solver).error().where,
+      EXPECT_EQ(clone_into(target, broken, 0, 0, *system).error().where,
                 "source pixel " + std::to_string(at + 1) + ", 1");
       broken = source;
       broken.pixels.at(3, at).a = wrong;
@@ -47,7 +47,7 @@ TEST(Clone, RefusesWhatCannotBeBlendedAndLeavesTheTargetAlone) {
 
   target.at(4, 4).b = std::numeric_limits<float>::infinity();
   EXPECT_EQ(code(source, {}), "clone.not-finite");
-  EXPECT_EQ(clone_into(target, source, mask, 1, -2, *solver).error().where, "target pixel 4, 4");
+  EXPECT_EQ(clone_into(target, source, 1, -2, *system).error().where, "target pixel 4, 4");
   target = original;
   // Finite, but not when it is added up.
   WarpedRegion large = source;
@@ -62,15 +62,15 @@ TEST(Clone, RefusesWhatCannotBeBlendedAndLeavesTheTargetAlone) {
   EXPECT_EQ(target, dark);
 
   Raster<Rgba> none;
-  EXPECT_EQ(clone_into(none, source, mask, 0, 0, *solver).error().code, "clone.empty-target");
+  EXPECT_EQ(clone_into(none, source, 0, 0, *system).error().code, "clone.empty-target");
   std::stop_source stop;
   stop.request_stop();
   target = original;
-  EXPECT_EQ(clone_into(target, source, mask, 0, 0, *solver, {}, Watch{stop.get_token(), {}, nullptr}).error(),
+  EXPECT_EQ(clone_into(target, source, 0, 0, *system, {}, CloneQuality::kExport, Watch{stop.get_token(), {}, nullptr})
+                .error(),
             cancelled());
   EXPECT_EQ(target, original);
-  EXPECT_THROW((void)clone_into(target, source, rect_mask({2, 2, 5, 4}), 0, 0, *solver), BugError);
-  EXPECT_THROW((void)clone_into(target, {{1, 1, 7, 8}, source.pixels}, mask, 0, 0, *solver), BugError);
+  EXPECT_THROW((void)clone_into(target, {{1, 1, 7, 8}, source.pixels}, 0, 0, *system), BugError);
 }
 
 TEST(Clone, IsPoissonEditingByTheBookInEveryMode) {
