@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -38,7 +39,10 @@ struct Jump {
 struct CancelWork {};
 
 // Files.  Without a path a dialog asks for it.
-struct NewDocument {};
+/// In a tab of its own.
+struct NewDocument {
+  std::optional<DocumentNew> what;
+};
 /// A project, a script or a picture: in a tab of its own.
 struct Open {
   std::filesystem::path path;
@@ -77,6 +81,13 @@ struct Quit {
 };
 /// The question or the file browser is left without an answer, or after it.
 struct Dismiss {};
+/// Work that an earlier run left behind: taken up in a tab of its own, or thrown away.
+struct Recover {
+  std::size_t index = 0;
+};
+struct DiscardRecovered {
+  std::size_t index = 0;
+};
 
 // The view.
 struct PickTool {
@@ -133,14 +144,14 @@ struct Say {
 
 } // namespace action
 
-using Action =
-    std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo, action::Redo,
-                 action::Jump, action::CancelWork, action::NewDocument, action::Open, action::AddSource,
-                 action::SetTarget, action::Save, action::SaveAs, action::ExportAgain, action::Export,
-                 action::OpenSample, action::SelectTab, action::CloseTab, action::Quit, action::Dismiss,
-                 action::PickTool, action::SetOverlays, action::SetPreferences, action::SetView, action::Fit,
-                 action::ZoomBy, action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore,
-                 action::SelectPin, action::WantAlternatives, action::ShowWindow, action::Say>;
+using Action = std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo,
+                            action::Redo, action::Jump, action::CancelWork, action::NewDocument, action::Open,
+                            action::AddSource, action::SetTarget, action::Save, action::SaveAs, action::ExportAgain,
+                            action::Export, action::OpenSample, action::SelectTab, action::CloseTab, action::Quit,
+                            action::Dismiss, action::Recover, action::DiscardRecovered, action::PickTool,
+                            action::SetOverlays, action::SetPreferences, action::SetView, action::Fit, action::ZoomBy,
+                            action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore, action::SelectPin,
+                            action::WantAlternatives, action::ShowWindow, action::Say>;
 
 /// Where panels and tools put what they want done; carried out after the frame.
 class ActionSink {

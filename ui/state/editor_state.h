@@ -52,6 +52,16 @@ struct FileRequest {
   std::filesystem::path proposal;
 };
 
+/// What an earlier run did not save.
+struct RecoveredWork {
+  std::filesystem::path journal;
+  /// Of the document, as a person knows it.
+  std::string name;
+  /// "today 14:03", "Tuesday 9:12".
+  std::string when;
+  std::size_t steps = 0;
+};
+
 /// All that the window shows and no document holds.
 struct EditorState {
   std::vector<Tab> tabs;
@@ -67,6 +77,10 @@ struct EditorState {
   bool show_about = false;
   std::optional<Question> question;
   std::optional<FileRequest> file_request;
+  /// The size and colour of a new document are asked for.
+  bool asks_new_document = false;
+  /// Newest first.
+  std::vector<RecoveredWork> recovered;
 
   Tab* tab() { return front < tabs.size() ? &tabs[front] : nullptr; }
   const Tab* tab() const { return front < tabs.size() ? &tabs[front] : nullptr; }

@@ -23,6 +23,8 @@ struct Preferences {
   double tolerance_px = 10;
   /// Of pictures that the undo history alone holds.
   double history_mib = 2048;
+  /// The desktop's own file dialog instead of this program's, where there is one.
+  bool system_dialog = false;
   /// The newest first.
   std::vector<std::filesystem::path> recent_files;
 
