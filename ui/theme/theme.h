@@ -22,15 +22,25 @@ struct ThemeLook {
   /// Text and icons share fonts: icons are the code points in icons.h, merged into `text` and, larger, on their own.
   ImFont* icons_large = nullptr;
 
+  /// Behind panels and in rows of tabs; panels and bars; fields and buttons; plots and lists; lines between panels;
+  /// behind pictures.
   PackedColor window = 0;
   PackedColor panel = 0;
   PackedColor raised = 0;
+  PackedColor sunken = 0;
   PackedColor line = 0;
   PackedColor canvas = 0;
+  /// A field under the pointer; the filled part of a slider; the chosen row of a list.
+  PackedColor hovered = 0;
+  PackedColor filled = 0;
+  PackedColor selected = 0;
   PackedColor ink = 0;
   PackedColor ink_quiet = 0;
   PackedColor accent = 0;
+  /// What is written on the accent.
   PackedColor accent_ink = 0;
+  /// The line of a plot.
+  PackedColor plot = 0;
   PackedColor warning = 0;
   PackedColor danger = 0;
   /// Curves on pictures: a light core in a dark halo, visible on everything.
@@ -42,5 +52,18 @@ struct ThemeLook {
 
   float px(float design_px) const { return design_px * scale; }
 };
+
+/// Design pixels.
+inline constexpr float kTextSize = 14, kIconSize = 17;
+
+/// Colours and measures; fonts are still to be loaded (fonts.h).
+/// @param scale  positive.
+ThemeLook make_look(Theme theme, float scale);
+
+/// Sets Dear ImGui's style of the present context to that look.
+void apply_style(const ThemeLook& look);
+
+/// The same colour, `alpha` 0…1 times as opaque.
+PackedColor faded(PackedColor color, float alpha);
 
 } // namespace oversketch

@@ -1,0 +1,71 @@
+#pragma once
+
+// Dear ImGui 1.86, 1.90 and 1.92 under one set of names: what moved between them, and nothing else.
+
+#include <imgui.h>
+
+#include <cstdint>
+
+namespace oversketch::compat {
+
+/// A texture's name on the graphics hardware as Dear ImGui passes it about: a pointer until 1.91.4, a number since.
+inline ImTextureID to_texture_id(std::uint32_t texture) {
+#if IMGUI_VERSION_NUM < 19140
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)); // NOLINT: what the backend expects
+#else
+  return static_cast<ImTextureID>(texture);
+#endif
+}
+
+/// A font at the size it was loaded with; ended by ImGui::PopFont().
+inline void push_font(ImFont* font) {
+#if IMGUI_VERSION_NUM < 19200
+  ImGui::PushFont(font);
+#else
+  ImGui::PushFont(font, font->LegacySize);
+#endif
+}
+
+/// The size a font was loaded with, screen pixels.
+inline float font_size(const ImFont* font) {
+#if IMGUI_VERSION_NUM < 19200
+  return font->FontSize;
+#else
+  return font->LegacySize;
+#endif
+}
+
+/// A button that shows a picture; `id` names it.
+inline bool image_button(const char* id, ImTextureID texture, ImVec2 size, ImVec2 uv0 = {0, 0}, ImVec2 uv1 = {1, 1}) {
+#if IMGUI_VERSION_NUM < 18900
+  ImGui::PushID(id);
+  const bool pressed = ImGui::ImageButton(texture, size, uv0, uv1);
+  ImGui::PopID();
+  return pressed;
+#else
+  return ImGui::ImageButton(id, texture, size, uv0, uv1);
+#endif
+}
+
+/// Later items may lie over an item and are asked first: the one is called before the item, the other after it.
+inline void before_overlapped_item() {
+#if IMGUI_VERSION_NUM >= 18970
+  ImGui::SetNextItemAllowOverlap();
+#endif
+}
+inline void after_overlapped_item() {
+#if IMGUI_VERSION_NUM < 18970
+  ImGui::SetItemAllowOverlap();
+#endif
+}
+
+/// Whether a key went down in this frame, for keys that Dear ImGui 1.86 has names for.
+inline bool is_key_pressed(ImGuiKey key, bool repeat = true) {
+#if IMGUI_VERSION_NUM < 18700
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
+#else
+  return ImGui::IsKeyPressed(key, repeat);
+#endif
+}
+
+} // namespace oversketch::compat
