@@ -29,7 +29,8 @@ public:
   void execute(Command command);
   /// What the gesture in hand would do; the first preview begins a gesture.  Solved and shown, not in the history.
   void preview(Command command);
-  /// The last preview becomes one step of history; nothing happens without one.
+  /// The last preview becomes one step of history.  Nothing happens without one; when it was refused, the document is
+  /// again as it was before the gesture.
   void commit();
   /// The document is again as it was before the gesture.
   void abandon();

@@ -73,6 +73,24 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 Result<void> Session::execute(const Command& command, const Watch& watch) {
+  auto prepared = prepare(command, watch);
+  if (!prepared) return prepared.error();
+  take(std::move(*prepared));
+  return {};
+}
+
+Result<void> Session::preview(const Command& command, const Watch& watch) {
+  auto prepared = prepare(command, watch);
+  if (!prepared) return prepared.error();
+  pending_ = std::move(*prepared);
+  return {};
+}
+
+void Session::commit_preview() {
+  if (pending_) take(std::move(*pending_));
+}
+
+Result<Session::Pending> Session::prepare(const Command& command, const Watch& watch) {
   auto after = apply(document(), command);
   if (!after) return after.error();
   const Solves& before = present_solves();
@@ -82,12 +100,16 @@ Result<void> Session::execute(const Command& command, const Watch& watch) {
     if (known != before.end() && known->second == solve) continue;
     if (auto deformed = run(*solve, watch); !deformed) return deformed.error();
   }
-  if (std::holds_alternative<DocumentNew>(command)) log_.clear();
-  log_.push_back(command);
-  std::string label = label_of(command, document(), *after);
-  history_.push(std::move(*after), command, std::move(label));
-  keep(std::move(solves));
-  return {};
+  return Pending{command, std::move(*after), std::move(solves)};
+}
+
+void Session::take(Pending pending) {
+  if (std::holds_alternative<DocumentNew>(pending.command)) log_.clear();
+  log_.push_back(pending.command);
+  std::string label = label_of(pending.command, document(), pending.document);
+  history_.push(std::move(pending.document), pending.command, std::move(label));
+  keep(std::move(pending.solves));
+  pending_.reset();
 }
 
 const Session::Solves& Session::present_solves() const {
@@ -137,22 +159,33 @@ void Session::keep(Solves solves) {
 }
 
 const Session::Solve& Session::solve_of(const Layer& layer) const {
-  return *present_solves().at(layer.id);
+  return *shown_solves().at(layer.id);
 }
 
 Result<void> Session::undo(std::size_t steps) {
+  pending_.reset();
   auto done = history_.undo(steps);
   if (done) log_.push_back(UndoStep{static_cast<int>(steps)});
   return done;
 }
 
 Result<void> Session::redo(std::size_t steps) {
+  pending_.reset();
   auto done = history_.redo(steps);
   if (done) log_.push_back(RedoStep{static_cast<int>(steps)});
   return done;
 }
 
+Result<void> Session::jump(std::size_t entry) {
+  const std::size_t cursor = history_.cursor();
+  if (entry < cursor) return undo(cursor - entry);
+  if (entry > cursor) return redo(entry - cursor);
+  pending_.reset();
+  return {};
+}
+
 void Session::adopt(Session other) {
+  pending_ = std::move(other.pending_);
   history_ = std::move(other.history_);
   log_ = std::move(other.log_);
   solves_ = std::move(other.solves_);
@@ -200,16 +233,22 @@ Result<std::shared_ptr<const Deformation>> Session::run(const Solve& solve, cons
 }
 
 Result<std::shared_ptr<const Deformation>> Session::deformation(LayerId id, const Watch& watch) {
-  const Layer* layer = document().find(id);
+  const Layer* layer = shown().find(id);
   if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
   if (layer->outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(*layer)};
   return run(solve_of(*layer), watch);
 }
 
+std::optional<Hash> Session::deformation_name(LayerId id) const {
+  const auto& solves = shown_solves();
+  const auto found = solves.find(id);
+  return found == solves.end() ? std::nullopt : std::optional(found->second->deformation);
+}
+
 Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
   const auto deformed = deformation(id, watch);
   if (!deformed) return deformed.error();
-  const Layer& layer = *document().find(id);
+  const Layer& layer = *shown().find(id);
   const Similarity to_target = layer.placement.to_target();
   Deformation placed = **deformed;
   placed.positions = transformed(placed.positions, to_target);
@@ -299,11 +338,11 @@ Result<Image> Session::composite_until(const Document& document, std::size_t cou
 }
 
 Result<Image> Session::composite(const Watch& watch) {
-  return composite_until(document(), document().layers.size(), watch);
+  return composite_until(shown(), shown().layers.size(), watch);
 }
 
 Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
-  const Document& now = document();
+  const Document& now = shown();
   const Layer* layer = now.find(id);
   if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
   const auto index = static_cast<std::size_t>(layer - now.layers.data());

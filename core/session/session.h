@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace oversketch {
@@ -48,6 +49,9 @@ public:
   Session& operator=(Session&&) noexcept;
 
   const Document& document() const { return history_.present(); }
+  /// What deformation(), metrics() and the pictures are of: the preview's document while there is one.
+  const Document& shown() const { return pending_ ? pending_->document : history_.present(); }
+  bool has_preview() const { return pending_.has_value(); }
   const History& history() const { return history_; }
   const Counters& counters() const { return counters_; }
 
@@ -55,8 +59,18 @@ public:
   /// refused here.
   /// @errors those of apply() and make_region_mesh(), with the layer as the place; nothing is changed then.
   Result<void> execute(const Command& command, const Watch& watch = {});
+  /// What the command would give, each time from the present document: shown, but no part of the history.
+  /// @errors those of execute(); the preview before it stays then.
+  Result<void> preview(const Command& command, const Watch& watch = {});
+  /// The preview becomes one step of the history, as if its command had been executed.  Nothing without a preview.
+  void commit_preview();
+  void drop_preview() { pending_.reset(); }
+
+  /// Undo, redo and jump drop the preview.
   Result<void> undo(std::size_t steps = 1);
   Result<void> redo(std::size_t steps = 1);
+  /// To that entry of the history: the undo or redo steps that lead there.
+  Result<void> jump(std::size_t entry);
   void mark_saved() { history_.mark_saved(); }
   /// Takes over the document, history and log of another session; the counters add up.
   void adopt(Session other);
@@ -67,6 +81,8 @@ public:
   /// The layer's deformed region, in its own space; apply the placement for target pixels.
   /// @errors layer.unknown, layer.no-region, those of the solvers, cancelled.
   Result<std::shared_ptr<const Deformation>> deformation(LayerId id, const Watch& watch = {});
+  /// What names that result by its content; none where there is no region.
+  std::optional<Hash> deformation_name(LayerId id) const;
   /// Its distortion; lengths in target pixels.
   Result<Metrics> metrics(LayerId id, const Watch& watch = {});
 
@@ -85,7 +101,17 @@ private:
   /// How each layer of a history entry is solved.
   using Solves = std::map<LayerId, std::shared_ptr<const Solve>>;
 
+  /// A document that is not in the history, and how it came about.
+  struct Pending {
+    Command command;
+    Document document;
+    Solves solves;
+  };
+
   const Solves& present_solves() const;
+  const Solves& shown_solves() const { return pending_ ? pending_->solves : present_solves(); }
+  Result<Pending> prepare(const Command& command, const Watch& watch);
+  void take(Pending pending);
   Solves plan(const Document& after, const Command& command) const;
   static std::shared_ptr<const Solve> plan_layer(const Layer& layer, const std::shared_ptr<const Solve>& last,
                                                  bool anew);
@@ -99,6 +125,7 @@ private:
   Result<Image> composite_until(const Document& document, std::size_t count, const Watch& watch);
 
   History history_;
+  std::optional<Pending> pending_;
   Counters counters_;
   std::vector<Step> log_;
   /// By the id of the history entry.

@@ -1,0 +1,293 @@
+#include "core/session/live_session.h"
+
+#include "core/session/live_inbox.h"
+#include "core/session/live_picture.h"
+#include "core/session/live_snapshot.h"
+#include "core/session/picture_loader.h"
+
+#include <chrono>
+#include <exception>
+#include <thread>
+#include <utility>
+
+namespace oversketch {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// While requests come faster than they are served, what they do is shown this often all the same.
+constexpr std::chrono::milliseconds kShowAtLeastEvery{50};
+
+/// The work, with what libraries throw turned into an Error.
+template <class Work>
+Result<void> guarded(Work work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{"memory.exhausted", "there is not enough memory for this", ""};
+  } catch (const std::exception& thrown) {
+    return Error{"program.unexpected", thrown.what(), ""};
+  }
+}
+
+/// What has not been taken yet, and then what is newer.
+void merge(PictureUpdate& waiting, PictureUpdate newer) {
+  if (newer.whole) {
+    waiting = std::move(newer);
+    return;
+  }
+  const auto covers = [](const PicturePatch& above, const PicturePatch& below) {
+    return above.x <= below.x && above.y <= below.y &&
+           above.x + above.pixels.width() >= below.x + below.pixels.width() &&
+           above.y + above.pixels.height() >= below.y + below.pixels.height();
+  };
+  for (PicturePatch& patch : newer.patches) {
+    std::erase_if(waiting.patches, [&](const PicturePatch& old) { return covers(patch, old); });
+    waiting.patches.push_back(std::move(patch));
+  }
+}
+
+} // namespace
+
+struct LiveSession::State {
+  std::function<void()> on_change;
+  live::Inbox inbox;
+
+  /// Guards what follows it.
+  mutable std::mutex mutex;
+  std::condition_variable idle;
+  std::shared_ptr<const Snapshot> snapshot = std::make_shared<const Snapshot>();
+  PictureUpdate update;
+  Activity activity;
+  /// As it was last asked for.
+  live::View wanted;
+
+  // The worker's own.
+  Session session;
+  live::SnapshotMaker snapshots;
+  live::Picture picture;
+  live::View view;
+  std::optional<Error> problem;
+  std::uint64_t problem_number = 0;
+  std::uint64_t revision = 0;
+  bool preview_refused = false;
+  Clock::time_point last_shown;
+
+  std::thread worker;
+
+  void post(live::Request request);
+  template <class Change>
+  void post_view(Change change);
+  void work();
+  void serve(live::Request& request);
+  Result<void> carry_out(live::Execute& request, const Watch& watch);
+  Result<void> carry_out(live::Preview& request, const Watch& watch);
+  Result<void> carry_out(live::Commit&, const Watch&);
+  Result<void> carry_out(live::Abandon&, const Watch&);
+  Result<void> carry_out(live::Undo& request, const Watch&) { return session.undo(request.steps); }
+  Result<void> carry_out(live::Redo& request, const Watch&) { return session.redo(request.steps); }
+  Result<void> carry_out(live::Jump& request, const Watch&) { return session.jump(request.entry); }
+  Result<void> carry_out(live::Run& request, const Watch& watch);
+  Result<void> carry_out(live::View& request, const Watch&);
+  /// @returns whether it came to its end.
+  bool show(live::Quality quality, const std::stop_token& stop);
+  void refuse(Error error);
+  void publish(Snapshot made, PictureUpdate changed);
+  /// Says that nothing is being done, if that is so.
+  void rest();
+  Watch watch_of(std::stop_token stop);
+};
+
+LiveSession::LiveSession(std::function<void()> on_change) : state_(std::make_unique<State>()) {
+  state_->on_change = std::move(on_change);
+  state_->worker = std::thread([state = state_.get()] { state->work(); });
+}
+
+LiveSession::~LiveSession() {
+  state_->inbox.close();
+  state_->worker.join();
+}
+
+void LiveSession::State::post(live::Request request) {
+  const std::lock_guard lock(mutex);
+  activity.busy = true;
+  inbox.post(std::move(request));
+}
+
+template <class Change>
+void LiveSession::State::post_view(Change change) {
+  const std::lock_guard lock(mutex);
+  const live::View before = wanted;
+  change(wanted);
+  if (wanted == before) return;
+  activity.busy = true;
+  inbox.post(wanted);
+}
+
+void LiveSession::execute(Command command) {
+  state_->post(live::Execute{std::move(command)});
+}
+void LiveSession::preview(Command command) {
+  state_->post(live::Preview{std::move(command)});
+}
+void LiveSession::commit() {
+  state_->post(live::Commit{});
+}
+void LiveSession::abandon() {
+  state_->post(live::Abandon{});
+}
+void LiveSession::undo(int steps) {
+  state_->post(live::Undo{static_cast<std::size_t>(std::max(steps, 0))});
+}
+void LiveSession::redo(int steps) {
+  state_->post(live::Redo{static_cast<std::size_t>(std::max(steps, 0))});
+}
+void LiveSession::jump(std::size_t entry) {
+  state_->post(live::Jump{entry});
+}
+void LiveSession::run(std::string label, Job job, std::function<void(const Result<void>&)> done) {
+  state_->post(live::Run{std::move(label), std::move(job), std::move(done)});
+}
+void LiveSession::show_compare(Compare compare) {
+  state_->post_view([&](live::View& view) { view.compare = compare; });
+}
+void LiveSession::want_alternatives(bool wanted) {
+  state_->post_view([&](live::View& view) { view.alternatives = wanted; });
+}
+void LiveSession::cancel() {
+  state_->inbox.cancel();
+}
+
+std::shared_ptr<const Snapshot> LiveSession::snapshot() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->snapshot;
+}
+
+PictureUpdate LiveSession::take_picture_update() {
+  const std::lock_guard lock(state_->mutex);
+  return std::exchange(state_->update, PictureUpdate{state_->update.width, state_->update.height, false, {}});
+}
+
+LiveSession::Activity LiveSession::activity() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->activity;
+}
+
+void LiveSession::wait_until_idle() {
+  std::unique_lock lock(state_->mutex);
+  state_->idle.wait(lock, [&] { return !state_->activity.busy; });
+}
+
+// The worker.
+
+void LiveSession::State::work() {
+  while (auto request = inbox.next()) {
+    serve(*request);
+    if (inbox.empty() || Clock::now() - last_shown > kShowAtLeastEvery) show(live::Quality::kFirst, inbox.serving());
+    // Better as long as nobody asks for something else.
+    if (inbox.empty()) show(live::Quality::kRest, inbox.refining());
+    rest();
+  }
+}
+
+void LiveSession::State::rest() {
+  {
+    const std::lock_guard lock(mutex);
+    if (!inbox.empty()) return;
+    activity = {};
+  }
+  idle.notify_all();
+  if (on_change) on_change();
+}
+
+Watch LiveSession::State::watch_of(std::stop_token stop) {
+  Watch watch;
+  watch.stop = std::move(stop);
+  watch.progress = [this](double done, std::string_view label) {
+    {
+      const std::lock_guard lock(mutex);
+      activity.done = done;
+      activity.label = label;
+    }
+    if (on_change) on_change();
+  };
+  return watch;
+}
+
+void LiveSession::State::serve(live::Request& request) {
+  const Watch watch = watch_of(inbox.serving());
+  const bool gesture = session.has_preview();
+  auto outcome = guarded([&] { return std::visit([&](auto& one) { return carry_out(one, watch); }, request); });
+  if (outcome || (outcome.error() == cancelled() && gesture)) return;
+  refuse(outcome.error());
+}
+
+void LiveSession::State::refuse(Error error) {
+  problem = std::move(error);
+  ++problem_number;
+}
+
+Result<void> LiveSession::State::carry_out(live::Execute& request, const Watch& watch) {
+  session.drop_preview();
+  if (auto loaded = PictureLoader("").load_into(request.command); !loaded) return loaded.error();
+  return session.execute(request.command, watch);
+}
+
+Result<void> LiveSession::State::carry_out(live::Preview& request, const Watch& watch) {
+  auto shown = session.preview(request.command, watch);
+  preview_refused = !shown;
+  return shown;
+}
+
+Result<void> LiveSession::State::carry_out(live::Commit&, const Watch&) {
+  if (!std::exchange(preview_refused, false)) session.commit_preview();
+  session.drop_preview();
+  return {};
+}
+
+Result<void> LiveSession::State::carry_out(live::Abandon&, const Watch&) {
+  preview_refused = false;
+  session.drop_preview();
+  return {};
+}
+
+Result<void> LiveSession::State::carry_out(live::Run& request, const Watch& watch) {
+  {
+    const std::lock_guard lock(mutex);
+    activity.label = request.label;
+  }
+  session.drop_preview();
+  auto outcome = guarded([&] { return request.job(session, watch); });
+  if (request.done) request.done(outcome);
+  return outcome;
+}
+
+Result<void> LiveSession::State::carry_out(live::View& request, const Watch&) {
+  view = request;
+  return {};
+}
+
+bool LiveSession::State::show(live::Quality quality, const std::stop_token& stop) {
+  Watch watch = watch_of(stop);
+  PictureUpdate changed;
+  const auto painted = guarded([&] { return picture.update(session, quality, watch, changed); });
+  if (!painted && painted.error() != cancelled()) refuse(painted.error());
+  publish(snapshots.make(session, quality == live::Quality::kRest && painted, watch), std::move(changed));
+  last_shown = Clock::now();
+  return painted.ok();
+}
+
+void LiveSession::State::publish(Snapshot made, PictureUpdate changed) {
+  made.revision = ++revision;
+  made.problem = problem;
+  made.problem_number = problem_number;
+  {
+    const std::lock_guard lock(mutex);
+    snapshot = std::make_shared<const Snapshot>(std::move(made));
+    merge(update, std::move(changed));
+  }
+  if (on_change) on_change();
+}
+
+} // namespace oversketch

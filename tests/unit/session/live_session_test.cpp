@@ -1,0 +1,233 @@
+#include "core/session/live_session.h"
+
+#include "tests/support/documents.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace oversketch {
+namespace {
+
+using namespace testing;
+
+/// The commands that lead to a document with one sketched layer.
+std::vector<Command> sketched() {
+  DocumentNew begin;
+  begin.target = loaded_ref("target.png", wavy_image(160, 120, 0));
+  return {begin, LayerAdd{loaded_ref("source.png", wavy_image(140, 130, 2)), "fish"}, RegionSet{{}, blob({60, 60}, 35)},
+          SketchSet{{}, blob({80, 55}, 32, 0.3, 60, 0.5)}};
+}
+
+Session plain_session(const std::vector<Command>& commands) {
+  Session session;
+  for (const Command& command : commands) {
+    const auto done = session.execute(command);
+    EXPECT_TRUE(done.ok()) << (done.ok() ? "" : to_string(done.error()));
+  }
+  return session;
+}
+
+void execute_all(LiveSession& live, const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    live.execute(command);
+  live.wait_until_idle();
+}
+
+/// The shown picture, put together from everything that was handed out.
+class Screen {
+public:
+  const Raster<Rgba8>& take(LiveSession& live) {
+    PictureUpdate update = live.take_picture_update();
+    if (update.whole) pixels_ = Raster<Rgba8>(update.width, update.height);
+    for (const PicturePatch& patch : update.patches)
+      for (int y = 0; y < patch.pixels.height(); ++y)
+        for (int x = 0; x < patch.pixels.width(); ++x)
+          pixels_.at(patch.x + x, patch.y + y) = patch.pixels.at(x, y);
+    return pixels_;
+  }
+
+private:
+  Raster<Rgba8> pixels_;
+};
+
+int greatest_difference(const Raster<Rgba8>& a, const Raster<Rgba8>& b) {
+  if (a.rect() != b.rect()) return 256;
+  int most = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const Rgba8 p = a.values()[i], q = b.values()[i];
+    for (const int d : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a})
+      most = std::max(most, std::abs(d));
+  }
+  return most;
+}
+
+void expect_picture_of(Screen& screen, LiveSession& live, Session& session) {
+  const auto composite = session.composite();
+  ASSERT_TRUE(composite.ok());
+  EXPECT_LE(greatest_difference(screen.take(live), to_display(*composite)), 1);
+}
+
+TEST(LiveSession, refusals_become_a_numbered_problem_and_change_nothing) {
+  LiveSession live;
+  live.execute(LayerSelect{LayerId{4}});
+  live.undo();
+  live.execute(TargetSet{{"no/such/picture.png", {}}});
+  live.wait_until_idle();
+  const auto snapshot = live.snapshot();
+  EXPECT_EQ(snapshot->problem_number, 3u);
+  ASSERT_TRUE(snapshot->problem);
+  EXPECT_EQ(snapshot->problem->code, "file.not-found");
+  EXPECT_TRUE(snapshot->document.empty());
+  EXPECT_TRUE(snapshot->history.empty());
+}
+
+TEST(LiveSession, shows_what_a_session_on_the_same_thread_does) {
+  LiveSession live;
+  execute_all(live, sketched());
+  Session session = plain_session(sketched());
+  const auto snapshot = live.snapshot();
+  EXPECT_FALSE(snapshot->problem) << to_string(*snapshot->problem);
+  EXPECT_EQ(snapshot->document, session.document());
+  EXPECT_EQ(snapshot->history.size(), 4u);
+  EXPECT_EQ(snapshot->cursor, 3u);
+  const LayerSnapshot* layer = snapshot->find(LayerId{1});
+  ASSERT_NE(layer, nullptr);
+  ASSERT_NE(layer->deformation, nullptr);
+  EXPECT_EQ(layer->deformation->positions, (*session.deformation(LayerId{1}))->positions);
+  ASSERT_TRUE(layer->metrics);
+  EXPECT_EQ(layer->metrics->distortion.flipped_cells, 0);
+  EXPECT_EQ(layer->source.pixels->width(), 140);
+  ASSERT_NE(layer->thumbnail, nullptr);
+  EXPECT_LE(std::max(layer->thumbnail->width(), layer->thumbnail->height()), 96);
+  Screen screen;
+  expect_picture_of(screen, live, session);
+}
+
+TEST(LiveSession, previews_are_shown_and_only_the_commit_is_a_step) {
+  LiveSession live;
+  Screen screen;
+  execute_all(live, sketched());
+  for (int i = 1; i <= 40; ++i)
+    live.preview(LayerMove{{}, {i, -i / 2}});
+  live.wait_until_idle();
+  EXPECT_TRUE(live.snapshot()->in_gesture);
+  EXPECT_EQ(live.snapshot()->history.size(), 4u);
+  Session session = plain_session(sketched());
+  ASSERT_TRUE(session.execute(LayerMove{{}, {40, -20}}).ok());
+  EXPECT_EQ(live.snapshot()->document, session.document());
+  expect_picture_of(screen, live, session);
+
+  live.commit();
+  live.wait_until_idle();
+  EXPECT_FALSE(live.snapshot()->in_gesture);
+  EXPECT_EQ(live.snapshot()->history.size(), 5u);
+  EXPECT_EQ(live.snapshot()->document, session.document());
+  EXPECT_FALSE(live.snapshot()->problem);
+
+  live.undo();
+  live.wait_until_idle();
+  ASSERT_TRUE(session.undo().ok());
+  EXPECT_EQ(live.snapshot()->document, session.document());
+  expect_picture_of(screen, live, session);
+}
+
+TEST(LiveSession, an_abandoned_gesture_leaves_no_trace) {
+  LiveSession live;
+  Screen screen;
+  execute_all(live, sketched());
+  const auto before = live.snapshot();
+  const Raster<Rgba8> seen = screen.take(live);
+  live.preview(SketchSet{{}, blob({90, 60}, 25)});
+  live.wait_until_idle();
+  EXPECT_NE(live.snapshot()->document, before->document);
+  live.abandon();
+  live.commit();
+  live.wait_until_idle();
+  EXPECT_EQ(live.snapshot()->document, before->document);
+  EXPECT_EQ(live.snapshot()->history, before->history);
+  EXPECT_FALSE(live.snapshot()->modified != before->modified);
+  EXPECT_EQ(screen.take(live), seen);
+}
+
+TEST(LiveSession, a_commit_whose_last_preview_was_refused_changes_nothing) {
+  LiveSession live;
+  execute_all(live, sketched());
+  const Document before = live.snapshot()->document;
+  live.preview(SketchSet{{}, blob({90, 60}, 25)});
+  live.wait_until_idle();
+  live.preview(SketchSet{{}, {{10, 10}, {60, 60}, {60, 10}, {10, 60}}});
+  live.commit();
+  live.wait_until_idle();
+  EXPECT_EQ(live.snapshot()->document, before);
+  EXPECT_EQ(live.snapshot()->history.size(), 4u);
+  ASSERT_TRUE(live.snapshot()->problem);
+}
+
+TEST(LiveSession, jobs_run_on_the_session_and_their_errors_are_told) {
+  LiveSession live;
+  execute_all(live, sketched());
+  std::atomic<int> steps = 0, refused = 0;
+  live.run("Counting", [&](Session& session, const Watch&) -> Result<void> {
+    steps = static_cast<int>(session.history().entries().size());
+    return {};
+  });
+  live.run(
+      "Failing", [](Session&, const Watch&) -> Result<void> { throw std::bad_alloc(); },
+      [&](const Result<void>& outcome) { refused = !outcome.ok(); });
+  live.wait_until_idle();
+  EXPECT_EQ(steps, 4);
+  EXPECT_EQ(refused, 1);
+  EXPECT_EQ(live.snapshot()->problem->code, "memory.exhausted");
+  EXPECT_EQ(live.snapshot()->history.size(), 4u);
+}
+
+TEST(LiveSession, long_work_can_be_cancelled) {
+  LiveSession live;
+  std::atomic<bool> begun = false;
+  live.run("Waiting", [&](Session&, const Watch& watch) -> Result<void> {
+    begun = true;
+    while (!watch.stopped())
+      std::this_thread::yield();
+    return cancelled();
+  });
+  while (!begun)
+    std::this_thread::yield();
+  EXPECT_TRUE(live.activity().busy);
+  live.cancel();
+  live.wait_until_idle();
+  EXPECT_FALSE(live.activity().busy);
+  EXPECT_EQ(live.snapshot()->problem->code, cancelled().code);
+}
+
+TEST(LiveSession, ends_while_it_is_busy) {
+  for (int i = 0; i < 5; ++i) {
+    LiveSession live;
+    for (const Command& command : sketched())
+      live.execute(command);
+    live.preview(LayerMove{{}, {i, 0}});
+  }
+}
+
+TEST(LiveSession, takes_requests_from_several_threads) {
+  LiveSession live;
+  execute_all(live, sketched());
+  std::vector<std::thread> hands;
+  for (int hand = 0; hand < 3; ++hand)
+    hands.emplace_back([&live] {
+      for (int i = 0; i < 20; ++i) {
+        live.execute(LayerMove{{}, {1, 0}});
+        (void)live.snapshot();
+        (void)live.take_picture_update();
+      }
+    });
+  for (std::thread& hand : hands)
+    hand.join();
+  live.wait_until_idle();
+  EXPECT_EQ(live.snapshot()->document.find(LayerId{1})->placement.dx, 60);
+  EXPECT_EQ(live.snapshot()->history.size(), 64u);
+}
+
+} // namespace
+} // namespace oversketch
