@@ -78,7 +78,7 @@ TEST(LiveSession, refusals_become_a_numbered_problem_and_change_nothing) {
   const auto snapshot = live.snapshot();
   EXPECT_EQ(snapshot->problem_number, 3u);
   ASSERT_TRUE(snapshot->problem);
-  EXPECT_EQ(snapshot->problem->code, "file.not-found");
+  EXPECT_EQ(snapshot->problem->code, "image.missing");
   EXPECT_TRUE(snapshot->document.empty());
   EXPECT_TRUE(snapshot->history.empty());
 }
