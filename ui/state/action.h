@@ -57,12 +57,15 @@ struct SetTarget {
 struct Save {};
 struct SaveAs {
   std::filesystem::path path;
+  /// Over another file that is there: otherwise that is asked.
+  bool replace = false;
 };
 /// To where it went before.
 struct ExportAgain {};
 struct Export {
   std::filesystem::path path;
   int depth = 8;
+  bool replace = false;
 };
 struct OpenSample {};
 struct SelectTab {

@@ -16,13 +16,18 @@ namespace oversketch {
 
 /// One document in the window.
 struct Tab {
+  /// Of this tab and no other, as long as the program runs.
+  int id = 0;
   std::unique_ptr<LiveSession> session;
   DocumentView view;
   /// What the window's title and the tab say: the file's name without its ending, or "Untitled".
   std::string name;
   /// Where it was opened from or saved to; empty before that.
   std::filesystem::path path;
+  /// Where dialogs begin: beside what was opened or saved last.
+  std::filesystem::path folder;
   std::filesystem::path exported_to;
+  int export_depth = 8;
   /// Cannot be saved over its file (a newer version's): save asks for another name.
   bool read_only = false;
 };

@@ -5,11 +5,24 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace oversketch {
 
 /// The pointer's shape over a canvas; elsewhere Dear ImGui chooses it.
-enum class CursorShape { kArrow, kNone, kCross, kHand, kGrab, kMove, kResizeEw, kResizeNs, kResizeNwse, kResizeNesw };
+enum class CursorShape {
+  kArrow,
+  kNone,
+  kText,
+  kCross,
+  kHand,
+  kGrab,
+  kMove,
+  kResizeEw,
+  kResizeNs,
+  kResizeNwse,
+  kResizeNesw
+};
 
 /// Where the two canvases are, window pixels; none where a side is not shown.
 struct CanvasRects {
@@ -23,6 +36,8 @@ struct CanvasRects {
 /// What the draw functions tell the window in return; made anew for each frame.
 struct FrameReply {
   CanvasRects canvases;
+  /// What the status bar says.
+  std::string status;
   /// Set by whoever is under the pointer and wants another one than Dear ImGui's.
   std::optional<CursorShape> cursor;
   /// The next frame is due at this time (the frame clock's seconds) even if nothing happens: a caret, a line of the

@@ -78,7 +78,7 @@ std::string room_of(std::string_view path) {
 
 std::string allow_include(const std::string& from, const std::string& to, const RoomTable& rooms) {
   if (from == to) return "";
-  const bool to_core = to.starts_with("core/"), to_ui = to.starts_with("ui/");
+  const bool to_core = to.starts_with("core/"), to_ui = to == "ui" || to.starts_with("ui/");
   if (from.starts_with("core/")) {
     const auto row = rooms.find(from.substr(5));
     if (row == rooms.end()) return from + " is not a room of core/CMakeLists.txt";

@@ -1,0 +1,203 @@
+#include "app/gui/frame_loop.h"
+
+#include "core/image/image_io.h"
+#include "ui/editor_window.h"
+#include "ui/render/screen.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace oversketch::gui {
+namespace {
+
+/// Dear ImGui lays out anew over some frames; hovering shows in the frame after.
+constexpr int kFramesAfterChange = 3;
+/// How often the progress of work is shown.
+constexpr double kProgress_s = 0.1;
+
+LoadedPreferences load_user_preferences() {
+  return load_preferences(settings_path());
+}
+
+} // namespace
+
+FrameLoop::FrameLoop(Options options, std::filesystem::path assets, Window& window)
+    : options_(std::move(options)),
+      assets_(std::move(assets)),
+      window_(window),
+      keeper_(settings_path()),
+      imgui_(window),
+      editor_({.assets = assets_,
+               .preferences = load_user_preferences().preferences,
+               .wake =
+                   [this] {
+                     changed_ = true;
+                     Window::wake();
+                   },
+               .keep_preferences = [this](const Preferences& p) { keeper_.keep(p); }}),
+      window_state_([this] {
+        changed_ = true;
+        Window::wake();
+      }) {
+  if (options_.ui_map) map_.emplace(*options_.ui_map);
+}
+
+FrameLoop::~FrameLoop() = default;
+
+void FrameLoop::open_what_was_asked() {
+  if (const auto loaded = load_user_preferences(); loaded.problem)
+    editor_.perform(action::Say{to_line(*loaded.problem)});
+  if (options_.sample) editor_.perform(action::OpenSample{});
+  for (const auto& file : options_.files)
+    editor_.perform(action::Open{file});
+  if (options_.script) {
+    const auto folder = options_.script->parent_path();
+    editor_.run_script_in_tab(*options_.script, options_.out.value_or(folder.empty() ? "." : folder));
+  }
+}
+
+float FrameLoop::scale() const {
+  const float display = options_.scale.value_or(window_.content_scale());
+  return std::clamp(display * static_cast<float>(editor_.state().preferences.ui_scale), 0.5f, 8.0f);
+}
+
+double FrameLoop::wait_time() const {
+  if (frames_due_ > 0 || !window_.input().empty() || changed_) return 0;
+  double wait = reply_.next_frame_s - Window::now_s();
+  if (editor_.busy()) wait = std::min(wait, kProgress_s);
+  const EditorState& state = editor_.state();
+  if (!state.said.empty() && state.said_until > Window::now_s())
+    wait = std::min(wait, state.said_until - Window::now_s());
+  // Never exactly nothing: a time that has just come is seen by the next look at the clock.
+  return std::max(wait, 0.001);
+}
+
+bool FrameLoop::gather() {
+  const bool busy = editor_.busy();
+  const bool line_shown = editor_.state().said_until > Window::now_s();
+  const double before = Window::now_s();
+  window_.wait(wait_time());
+  batch_ = window_.input().take_batch();
+  events_ += batch_.size();
+  if (!batch_.empty()) pointer_ = batch_.back().event.position;
+  const bool line_ended = line_shown && editor_.state().said_until <= Window::now_s();
+  const bool time_came = reply_.next_frame_s > before && reply_.next_frame_s <= Window::now_s();
+  const bool asked = window_.take_redraw_request();
+  if (changed_.exchange(false) || asked || !batch_.empty() || line_ended || time_came)
+    frames_due_ = std::max(frames_due_, kFramesAfterChange);
+  if (busy) frames_due_ = std::max(frames_due_, 1);
+  return frames_due_ > 0;
+}
+
+void FrameLoop::take_drops() {
+  for (const DroppedFiles& drop : window_.take_drops()) {
+    const auto& target = reply_.canvases.target;
+    const bool on_target = target && drop.position.x >= target->x && drop.position.x < target->x + target->w &&
+                           drop.position.y >= target->y && drop.position.y < target->y + target->h;
+    for (const auto& path : drop.paths) {
+      if (on_target && kind_of_file(path) == FileKind::kPicture)
+        sink_.emit(action::AddSource{path});
+      else
+        sink_.emit(action::Open{path});
+    }
+  }
+}
+
+void FrameLoop::carry_out() {
+  take_drops();
+  if (window_.take_close_request()) sink_.emit(action::Quit{});
+  auto actions = sink_.take();
+  if (!actions.empty()) frames_due_ = kFramesAfterChange;
+  editor_.perform_all(std::move(actions));
+  std::vector<const LiveSession*> sessions;
+  for (const Tab& tab : editor_.state().tabs)
+    sessions.push_back(tab.session.get());
+  pictures_.keep_results(sessions);
+  for (const Error& problem : editor_.take_problems())
+    if (!first_problem_) first_problem_ = problem;
+  if (const auto problem = keeper_.take_problem()) editor_.perform(action::Say{to_line(*problem)});
+}
+
+std::string FrameLoop::title() const {
+  const Tab* tab = editor_.state().tab();
+  if (tab == nullptr) return "Oversketch";
+  return tab->name + (tab->session->snapshot()->modified ? " *" : "") + " – Oversketch";
+}
+
+Result<void> FrameLoop::draw() {
+  if (auto set = imgui_.set_look(editor_.state().preferences.theme, scale(), assets_); !set) return set;
+  WidgetMap widgets;
+  reply_ = {};
+  pictures_.begin_frame();
+  if (const Tab* tab = editor_.state().tab()) pictures_.update_result(*tab->session);
+  imgui_.begin_frame(batch_);
+  const DrawContext context = {imgui_.look(), widgets, sink_, reply_, Window::now_s()};
+  draw_editor_window(editor_.state(), window_state_, pictures_, to_events(batch_), context);
+  window_.set_cursor(reply_.cursor.value_or(imgui_.cursor()));
+  window_.set_title(title());
+  imgui_.end_frame();
+  --frames_due_;
+  if (pictures_.wants_frame()) frames_due_ = std::max(frames_due_, 1);
+  return write_map(widgets, reply_);
+}
+
+Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& reply) {
+  if (!map_) return {};
+  const EditorState& state = editor_.state();
+  const WindowSize size = window_.size();
+  const ShownFrame frame = {.widgets = widgets,
+                            .canvases = reply.canvases,
+                            .title = title(),
+                            .status = state.said_until > Window::now_s() ? state.said : reply.status,
+                            .busy = editor_.busy() || pictures_.wants_frame(),
+                            .wants_text = ImGui::GetIO().WantTextInput,
+                            .pointer = pointer_,
+                            .events = events_,
+                            .window = {0, 0, static_cast<float>(size.width), static_cast<float>(size.height)}};
+  return map_->write(print_ui_map(state, frame));
+}
+
+Result<void> FrameLoop::take_screenshot() const {
+  const Raster<Rgba8> pixels = imgui_.read_last_frame();
+  Raster<Rgba> picture(pixels.width(), pixels.height());
+  std::ranges::transform(pixels.values(), picture.values().begin(), [](const Rgba8& p) {
+    return Rgba{static_cast<float>(p.r) / 255, static_cast<float>(p.g) / 255, static_cast<float>(p.b) / 255, 1};
+  });
+  return save_image(Image(std::move(picture)), *options_.screenshot);
+}
+
+Result<void> FrameLoop::settle() {
+  if (editor_.busy() || changed_ || frames_due_ > 0 || !window_.input().empty()) return {};
+  if (options_.screenshot && !screenshot_taken_) {
+    screenshot_taken_ = true;
+    if (auto taken = take_screenshot(); !taken) return taken;
+  }
+  if (options_.exit_when_idle) ended_ = true;
+  return {};
+}
+
+Result<void> FrameLoop::run() {
+  open_what_was_asked();
+  while (!ended_) {
+    const bool draws = gather();
+    editor_.update(reply_.canvases, Window::now_s());
+    if (draws && window_.is_hidden()) {
+      // Nothing is seen; keys and clicks do not come either.
+      frames_due_ = 0;
+      batch_.clear();
+    } else if (draws) {
+      if (auto drawn = draw(); !drawn) return drawn;
+    }
+    carry_out();
+    if (auto settled = settle(); !settled) return settled;
+    if (editor_.wants_to_quit()) ended_ = true;
+  }
+  if (options_.record)
+    if (auto recorded = editor_.record_front(*options_.record); !recorded) return recorded;
+  if (options_.exit_when_idle && first_problem_) return *first_problem_;
+  return {};
+}
+
+} // namespace oversketch::gui

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "app/gui/imgui_layer.h"
+#include "app/gui/options.h"
+#include "app/gui/ui_map.h"
+#include "app/gui/window.h"
+
+#include "ui/render/gl_pictures.h"
+#include "ui/state/editor.h"
+#include "ui/state/settings.h"
+#include "ui/window_state.h"
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace oversketch::gui {
+
+/// The editor in its window: waits, draws a frame when something has changed, and carries out what it asked for.
+class FrameLoop {
+public:
+  FrameLoop(Options options, std::filesystem::path assets, Window& window);
+  ~FrameLoop();
+
+  /// Until the window is closed.
+  /// @errors what --script, --screenshot, --record or the map of the window met with; those of the fonts.
+  Result<void> run();
+
+private:
+  void open_what_was_asked();
+  double wait_time() const;
+  /// Whether there is a reason to draw.
+  bool gather();
+  Result<void> draw();
+  Result<void> write_map(const WidgetMap& widgets, const FrameReply& reply);
+  void carry_out();
+  void take_drops();
+  Result<void> settle();
+  Result<void> take_screenshot() const;
+  std::string title() const;
+  float scale() const;
+
+  Options options_;
+  std::filesystem::path assets_;
+  Window& window_;
+  /// Set by workers.
+  std::atomic<bool> changed_ = true;
+  PreferencesKeeper keeper_;
+  ImGuiLayer imgui_;
+  GlPictures pictures_;
+  Editor editor_;
+  WindowState window_state_;
+  std::optional<UiMapFile> map_;
+  ActionSink sink_;
+  std::vector<RawEvent> batch_;
+  FrameReply reply_;
+  Point pointer_;
+  std::size_t events_ = 0;
+  /// Frames that are still to be drawn: panels settle in some.
+  int frames_due_ = 0;
+  bool screenshot_taken_ = false;
+  bool ended_ = false;
+  std::optional<Error> first_problem_;
+};
+
+} // namespace oversketch::gui

@@ -1,0 +1,136 @@
+#pragma once
+
+#include "core/base/result.h"
+#include "ui/state/editor_state.h"
+#include "ui/state/file_jobs.h"
+#include "ui/widgets/frame_reply.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace oversketch {
+
+/// Carries out what panels and tools ask for: the one place where the window's state changes.
+///
+/// Knows neither window nor graphics.  Files are read and written on the sessions' workers; what comes of it is taken
+/// up by update(), so that no call here waits for a disk.
+/// @threads one thread, the window's.
+class Editor {
+public:
+  struct Setup {
+    /// The project's folder of that name: samples.
+    std::filesystem::path assets;
+    Preferences preferences;
+    /// Called from any thread when update() has something to do; must be quick.
+    std::function<void()> wake;
+    /// Called with preferences that have changed.
+    std::function<void(const Preferences&)> keep_preferences;
+  };
+  explicit Editor(Setup setup);
+  ~Editor();
+  Editor(const Editor&) = delete;
+  Editor& operator=(const Editor&) = delete;
+
+  const EditorState& state() const { return state_; }
+
+  /// Takes what workers have finished, tells of what was refused, fits the views that wait for it.  Once a frame,
+  /// before it is drawn.
+  /// @param canvases  where they were in the last frame.
+  /// @param now_s     the frame clock.
+  void update(const CanvasRects& canvases, double now_s);
+
+  void perform(Action action);
+  /// The actions of one frame.
+  void perform_all(std::vector<Action> actions);
+
+  /// Runs a whole script in a tab of its own, as the command line would.
+  void run_script_in_tab(const std::filesystem::path& script, const std::filesystem::path& out);
+  /// Writes the session in front as a script, and waits for it.
+  Result<void> record_front(const std::filesystem::path& path);
+
+  /// Whether anything is still being worked on.
+  bool busy() const;
+  /// Everything that was to be done before leaving is done.
+  bool wants_to_quit() const { return quit_; }
+  /// What went wrong since the last call.
+  std::vector<Error> take_problems();
+
+private:
+  struct Inbox;
+  /// What the editor remembers of a tab besides what is shown.
+  struct Memory {
+    std::uint64_t problem_number = 0;
+    Hash source;
+    Hash target;
+    bool saving = false;
+  };
+  /// Tabs are being saved in order to be closed.
+  struct Leaving {
+    /// That one; none: all, and the program ends.
+    std::optional<int> tab;
+    std::set<int> saved;
+  };
+  using Then = std::function<void(Editor&, const Result<void>&)>;
+
+  void perform_view(const Action& action);
+  void perform_window(const Action& action);
+  void say(std::string text);
+  void say(const Error& error);
+
+  Tab& add_tab(std::string name);
+  Tab* find_tab(int id);
+  std::optional<std::size_t> index_of(int id) const;
+  void remove_tab(std::size_t index);
+  /// Runs work on the tab's session; `then` is called here, by update(), unless the tab is gone by then.
+  void run(Tab& tab, std::string label, LiveSession::Job job, Then then);
+  void request_file(FileRequest::For purpose, std::filesystem::path proposal);
+  void remember_file(const std::filesystem::path& path);
+
+  void open(const std::filesystem::path& path);
+  void add_source(const std::filesystem::path& path);
+  void set_target(const std::filesystem::path& path);
+  void new_document(const action::NewDocument& asked);
+  void save(Tab& tab);
+  void save_as(const action::SaveAs& asked);
+  void save_to(Tab& tab, const std::filesystem::path& path);
+  void export_again();
+  void export_to(const action::Export& asked);
+  void close(const action::CloseTab& asked);
+  void quit(const action::Quit& asked);
+  void advance_leaving();
+  bool ask_to_replace(const std::filesystem::path& path, Action again);
+
+  void take_inbox();
+  void watch_tab(Tab& tab);
+  void fit(Tab& tab, Side side);
+  std::optional<Point> picture_size(const Tab& tab, Side side) const;
+  std::optional<Point> canvas_size(Side side) const;
+  void zoom(Side side, double factor);
+  void show_compare(Tab& tab);
+
+  Setup setup_;
+  EditorState state_;
+  std::shared_ptr<Inbox> inbox_;
+  std::map<int, Memory> memories_;
+  std::optional<Leaving> leaving_;
+  CanvasRects canvases_;
+  CanvasRects last_canvases_;
+  double now_s_ = 0;
+  int next_tab_ = 1;
+  int running_ = 0;
+  bool quit_ = false;
+  std::vector<Error> problems_;
+  /// Sessions of closed tabs, until their work has stopped.
+  std::vector<std::unique_ptr<LiveSession>> closed_;
+};
+
+/// An error as one line for a person: what is wrong, and where.
+std::string to_line(const Error& error);
+
+} // namespace oversketch

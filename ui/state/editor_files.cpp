@@ -1,0 +1,225 @@
+// The editor's files: opening, adding, saving, exporting.
+#include "ui/state/editor.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace oversketch {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path made_absolute(const fs::path& path) {
+  std::error_code failure;
+  const fs::path absolute = fs::absolute(path, failure).lexically_normal();
+  return failure ? path : absolute;
+}
+
+/// The name with that ending, unless it has one.
+fs::path with_ending(fs::path path, const char* ending) {
+  return path.has_extension() ? path : path += ending;
+}
+
+/// A tab in which nothing has begun.
+bool is_untouched(const Tab& tab) {
+  const auto snapshot = tab.session->snapshot();
+  return snapshot->document.empty() && !tab.session->activity().busy && tab.path.empty();
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code failure;
+  return fs::exists(path, failure);
+}
+
+} // namespace
+
+void Editor::request_file(FileRequest::For purpose, fs::path proposal) {
+  state_.file_request = FileRequest{purpose, std::move(proposal)};
+}
+
+void Editor::remember_file(const fs::path& path) {
+  auto& recent = state_.preferences.recent_files;
+  std::erase(recent, path);
+  recent.insert(recent.begin(), path);
+  perform(action::SetPreferences{state_.preferences});
+}
+
+void Editor::new_document(const action::NewDocument& asked) {
+  if (!asked.what) {
+    state_.asks_new_document = true;
+    return;
+  }
+  state_.asks_new_document = false;
+  add_tab("Untitled").session->execute(*asked.what);
+  state_.tool = Tool::kOutline;
+}
+
+void Editor::open(const fs::path& path) {
+  if (path.empty()) {
+    const Tab* tab = state_.tab();
+    return request_file(FileRequest::For::kOpen, tab != nullptr ? tab->folder : fs::path());
+  }
+  state_.file_request.reset();
+  const fs::path file = made_absolute(path);
+  for (std::size_t i = 0; i < state_.tabs.size(); ++i)
+    if (state_.tabs[i].path == file) {
+      state_.front = i;
+      return say(file.filename().string() + " is open already");
+    }
+  const bool reused = state_.tab() != nullptr && is_untouched(*state_.tab());
+  Tab& tab = reused ? *state_.tab() : add_tab("");
+  tab.name = file.stem().string();
+  tab.folder = file.parent_path();
+  const auto opened = std::make_shared<OpenedFile>();
+  const auto job = [file, opened](Session& session, const Watch& watch) -> Result<void> {
+    auto result = open_file(session, file, watch);
+    if (!result) return result.error();
+    *opened = std::move(*result);
+    return {};
+  };
+  const auto then = [file, opened, id = tab.id](Editor& editor, const Result<void>& result) {
+    if (!result) {
+      editor.say(result.error());
+      return editor.remove_tab(*editor.index_of(id));
+    }
+    Tab& done = *editor.find_tab(id);
+    done.read_only = opened->read_only;
+    if (kind_of_file(file) == FileKind::kProject) done.path = file;
+    if (!opened->message.empty()) editor.say(opened->message);
+    editor.remember_file(file);
+  };
+  run(tab, "Opening " + file.filename().string(), job, then);
+}
+
+void Editor::run_script_in_tab(const fs::path& script, const fs::path& out) {
+  const fs::path file = made_absolute(script), folder = made_absolute(out);
+  Tab& tab = add_tab(file.stem().string());
+  tab.folder = file.parent_path();
+  run(tab, "Running " + file.filename().string(),
+      [file, folder](Session& session, const Watch& watch) { return run_whole_script(session, file, folder, watch); },
+      {});
+}
+
+Result<void> Editor::record_front(const fs::path& path) {
+  Tab* tab = state_.tab();
+  if (tab == nullptr) return Error{"record.nothing", "no document is open: there is nothing to record", path.string()};
+  const auto outcome = std::make_shared<Result<void>>(cancelled());
+  tab->session->run(
+      "Recording", [path](Session& session, const Watch&) { return record_session(session, path); },
+      [outcome](const Result<void>& result) { *outcome = result; });
+  tab->session->wait_until_idle();
+  return *outcome;
+}
+
+void Editor::add_source(const fs::path& path) {
+  Tab* tab = state_.tab();
+  if (path.empty()) return request_file(FileRequest::For::kAddSource, tab != nullptr ? tab->folder : fs::path());
+  state_.file_request.reset();
+  const bool own_target = path == kTargetName;
+  if (tab == nullptr || (is_untouched(*tab) && !own_target)) return open(path);
+  const fs::path file = own_target ? path : made_absolute(path);
+  const auto job = [file](Session& session, const Watch& watch) {
+    return oversketch::add_source(session, file, watch);
+  };
+  const auto then = [](Editor& editor, const Result<void>& result) {
+    if (result) editor.state_.tool = Tool::kOutline;
+  };
+  run(*tab, "Adding " + file.filename().string(), job, then);
+}
+
+void Editor::set_target(const fs::path& path) {
+  Tab* tab = state_.tab();
+  if (path.empty()) return request_file(FileRequest::For::kSetTarget, tab != nullptr ? tab->folder : fs::path());
+  state_.file_request.reset();
+  if (tab == nullptr || is_untouched(*tab)) return open(path);
+  const fs::path file = made_absolute(path);
+  const auto job = [file](Session& session, const Watch& watch) {
+    return oversketch::set_target(session, file, watch);
+  };
+  run(*tab, "Opening " + file.filename().string(), job, {});
+}
+
+bool Editor::ask_to_replace(const fs::path& path, Action again) {
+  if (!is_there(path)) return false;
+  Question question;
+  question.title = "Replace " + path.filename().string() + "?";
+  question.text = "A file of that name is there already. Its contents will be lost.";
+  question.answers = {{"replace", "Replace", {std::move(again)}, false}, {"cancel", "Cancel", {}, true}};
+  state_.question = std::move(question);
+  return true;
+}
+
+void Editor::save(Tab& tab) {
+  if (!tab.path.empty() && !tab.read_only) return save_to(tab, tab.path);
+  state_.front = *index_of(tab.id);
+  request_file(FileRequest::For::kSaveAs, tab.folder / (tab.name + kProjectEnding));
+}
+
+void Editor::save_as(const action::SaveAs& asked) {
+  Tab* tab = state_.tab();
+  if (tab == nullptr) return;
+  if (asked.path.empty()) {
+    const fs::path proposal = tab->path.empty() ? tab->folder / (tab->name + kProjectEnding) : tab->path;
+    return request_file(FileRequest::For::kSaveAs, proposal);
+  }
+  state_.file_request.reset();
+  const fs::path file = with_ending(made_absolute(asked.path), kProjectEnding);
+  const bool own = file == tab->path && !tab->read_only;
+  if (!own && !asked.replace && ask_to_replace(file, action::SaveAs{file, true})) return;
+  save_to(*tab, file);
+}
+
+void Editor::save_to(Tab& tab, const fs::path& path) {
+  Memory& memory = memories_[tab.id];
+  if (memory.saving) return say(std::string("It is being saved already"));
+  memory.saving = true;
+  const auto job = [path](Session& session, const Watch& watch) { return save_file(session, path, watch); };
+  const auto then = [path, id = tab.id](Editor& editor, const Result<void>& result) {
+    editor.memories_[id].saving = false;
+    if (!result) {
+      editor.leaving_.reset();
+      return;
+    }
+    Tab& saved = *editor.find_tab(id);
+    saved.path = path;
+    saved.folder = path.parent_path();
+    saved.name = path.stem().string();
+    saved.read_only = false;
+    if (editor.leaving_) editor.leaving_->saved.insert(id);
+    editor.say("Saved " + path.filename().string());
+    editor.remember_file(path);
+  };
+  run(tab, "Saving " + path.filename().string(), job, then);
+}
+
+void Editor::export_again() {
+  const Tab* tab = state_.tab();
+  if (tab == nullptr) return;
+  export_to({tab->exported_to, tab->export_depth, true});
+}
+
+void Editor::export_to(const action::Export& asked) {
+  Tab* tab = state_.tab();
+  if (tab == nullptr) return;
+  if (asked.path.empty()) {
+    const fs::path proposal = tab->exported_to.empty() ? tab->folder / (tab->name + ".png") : tab->exported_to;
+    return request_file(FileRequest::For::kExport, proposal);
+  }
+  state_.file_request.reset();
+  const fs::path file = with_ending(made_absolute(asked.path), ".png");
+  const bool replaces = !asked.replace && file != tab->exported_to;
+  if (replaces && ask_to_replace(file, action::Export{file, asked.depth, true})) return;
+  const auto job = [file, depth = asked.depth](Session& session, const Watch& watch) {
+    return export_picture(session, file, depth, watch);
+  };
+  const auto then = [file, depth = asked.depth, id = tab->id](Editor& editor, const Result<void>& result) {
+    if (!result) return;
+    Tab& exported = *editor.find_tab(id);
+    exported.exported_to = file;
+    exported.export_depth = depth;
+    editor.say("Exported " + file.filename().string());
+  };
+  run(*tab, "Exporting " + file.filename().string(), job, then);
+}
+
+} // namespace oversketch

@@ -1,0 +1,114 @@
+#include "ui/state/file_jobs.h"
+
+#include "core/base/file.h"
+#include "core/image/image_io.h"
+#include "core/session/recorder.h"
+#include "core/session/runner.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace oversketch {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ending_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+Result<ImageRef> load_ref(const fs::path& path) {
+  if (path == kTargetName) return ImageRef{std::string(kTargetName), std::nullopt};
+  auto image = load_image(path);
+  if (!image) return image.error();
+  return ImageRef{path.string(), std::move(*image)};
+}
+
+bool changes_document(const ScriptLine& line) {
+  return std::holds_alternative<Command>(line.step) || std::holds_alternative<UndoStep>(line.step) ||
+         std::holds_alternative<RedoStep>(line.step);
+}
+
+Result<OpenedFile> open_script(Session& session, const fs::path& path, const Watch& watch) {
+  const auto text = read_text_file(path);
+  if (!text) return text.error();
+  const std::string name = path.filename().string();
+  auto lines = parse_script(*text, name);
+  if (!lines) return lines.error();
+  const auto left_out = std::erase_if(*lines, [](const ScriptLine& line) { return !changes_document(line); });
+  Session opened;
+  const fs::path folder = path.parent_path();
+  if (const auto run = run_script(opened, *lines, name, {folder, folder}, watch); !run) return run.error();
+  if (opened.document().empty()) return Error{"script.no-document", "the script makes no document", path.string()};
+  opened.mark_saved();
+  session.adopt(std::move(opened));
+  OpenedFile file;
+  if (left_out > 0) file.message = "Opened " + name + "; what it saves and exports was left out";
+  return file;
+}
+
+} // namespace
+
+FileKind kind_of_file(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".ora") return FileKind::kProject;
+  return ending == ".jsonl" ? FileKind::kScript : FileKind::kPicture;
+}
+
+Result<OpenedFile> open_file(Session& session, const fs::path& path, const Watch& watch) {
+  switch (kind_of_file(path)) {
+  case FileKind::kProject:
+    return Error{"open.unsupported", "projects cannot be opened yet", path.string()};
+  case FileKind::kScript:
+    return open_script(session, path, watch);
+  case FileKind::kPicture:
+    break;
+  }
+  auto picture = load_ref(path);
+  if (!picture) return picture.error();
+  DocumentNew command;
+  command.target = std::move(*picture);
+  Session opened;
+  if (const auto done = opened.execute(command, watch); !done) return done.error();
+  session.adopt(std::move(opened));
+  return OpenedFile{};
+}
+
+Result<void> run_whole_script(Session& session, const fs::path& path, const fs::path& out, const Watch& watch) {
+  const auto run = run_script_file(session, path, out, watch);
+  return run ? Result<void>{} : run.error();
+}
+
+Result<void> add_source(Session& session, const fs::path& path, const Watch& watch) {
+  auto picture = load_ref(path);
+  if (!picture) return picture.error();
+  return session.execute(LayerAdd{std::move(*picture), std::nullopt}, watch);
+}
+
+Result<void> set_target(Session& session, const fs::path& path, const Watch& watch) {
+  auto picture = load_ref(path);
+  if (!picture) return picture.error();
+  return session.execute(TargetSet{std::move(*picture)}, watch);
+}
+
+Result<void> save_file(Session& session, const fs::path& path, const Watch&) {
+  if (kind_of_file(path) != FileKind::kScript)
+    return Error{"save.unknown-extension", "end the name in .jsonl", path.string()};
+  if (auto saved = save_session(session, path); !saved) return saved;
+  session.mark_saved();
+  return {};
+}
+
+Result<void> record_session(const Session& session, const fs::path& path) {
+  return save_session(session, path);
+}
+
+Result<void> export_picture(Session& session, const fs::path& path, int depth, const Watch& watch) {
+  const auto picture = session.composite(watch);
+  if (!picture) return picture.error();
+  return save_image(*picture, path, depth == 16 ? BitDepth::k16 : BitDepth::k8);
+}
+
+} // namespace oversketch
