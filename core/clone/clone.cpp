@@ -1,7 +1,7 @@
 #include "core/clone/clone.h"
 
 #include "core/base/check.h"
-#include "core/clone/guidance.h"
+#include "core/clone/correction.h"
 #include "core/clone/paint.h"
 #include "core/clone/placed_pair.h"
 
@@ -69,29 +69,11 @@ BlendOptions without_detours(BlendOptions options) {
   return options;
 }
 
-struct Correction {
-  /// By pixel number; empty where nothing was solved.
-  std::vector<Channels> values;
-  /// In the domain's values.
-  double error = 0;
-};
-
-Result<Correction> solve(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
-                         const Watch& watch) {
-  const StageTimer timer(watch.times, "clone.solve");
-  const PixelGraph& graph = system.graph();
-  const std::vector<Channels> side =
-      options.mode == BlendMode::kMixed ? mixed_side(pair, graph) : membrane_side(pair, graph);
-  if (watch.stopped()) return cancelled();
-  Result<CloneSystem::Solution> solved = system.solve(side, watch);
-  if (!solved) return solved.error();
-  return Correction{std::move(solved->u), solved->error};
-}
-
 } // namespace
 
 Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, int dx, int dy,
-                               const CloneSystem& system, const BlendOptions& given, CloneQuality, const Watch& watch) {
+                               const CloneSystem& system, const BlendOptions& given, CloneQuality quality,
+                               const Watch& watch) {
   const Mask& mask = system.mask();
   if (given.mode == BlendMode::kNone) return paste_into(target, source, mask, dx, dy, given, watch);
   if (const Result<void> good = check_call(target, source, mask, given, 1); !good) return good.error();
@@ -104,7 +86,7 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
 
   Correction correction;
   if (needs_solution(options)) {
-    Result<Correction> solved = solve(pair, system, options, watch);
+    Result<Correction> solved = solve_correction(pair, system, options.mode, quality, watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
   }

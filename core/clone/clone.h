@@ -13,8 +13,9 @@ namespace oversketch {
 struct CloneReport {
   /// Pixels of the mask, those outside the target too.
   std::int64_t unknowns = 0;
-  /// A bound on the error of the solution in any pixel of the result, in 8-bit levels (from the residual of the linear
-  /// system; a result's rounding to float is not counted).  0 where nothing was solved.
+  /// A bound on the error of the solution in any pixel of the result, in 8-bit levels; a result's rounding to float is
+  /// not counted.  Of a membrane: Membrane::error_share() of the range of the differences on the ring; else from the
+  /// residual of the linear system.  0 where nothing was solved.
   double residual_levels = 0;
   /// Box round the pixels of the target that may have changed; all zero when the region lies wholly outside.
   Rect changed;
@@ -23,7 +24,7 @@ struct CloneReport {
 /// Blends a region into a picture without a seam, in place.
 ///
 /// Ω = the mask shifted by (dx, dy), g = the source shifted alike, f* = the target, its edge pixels repeated outside.
-/// With A, d = f* − g and u as in guidance.h, in the values of options.domain:
+/// With A, d = f* − g and u as in guidance.h, as near as `quality` says, in the values of options.domain:
 ///   import      f = g + u,  Δu = 0 in Ω, u = d on the ring of pixels round Ω (Pérez, Gangnet, Blake 2003)
 ///   mixed       f = g + u,  u from the stronger differences
 ///   monochrome  import of g's luminance

@@ -1,38 +1,19 @@
 #include "core/clone/clone_system.h"
 
+#include "core/base/check.h"
+#include "core/clone/lazy.h"
+
+#include <array>
 #include <limits>
-#include <mutex>
 
 namespace oversketch {
-namespace {
-
-/// A part that is made when it is first wanted.
-template <class T>
-class Lazy {
-public:
-  template <class Make>
-  Result<std::shared_ptr<const T>> get(Make make) {
-    const std::scoped_lock lock(making_);
-    if (!part_) {
-      Result<T> made = make();
-      if (!made) return made.error();
-      part_ = std::make_shared<const T>(std::move(*made));
-    }
-    return part_;
-  }
-
-private:
-  std::mutex making_;
-  std::shared_ptr<const T> part_;
-};
-
-} // namespace
-
 struct CloneSystem::Data {
   explicit Data(const Mask& mask) : graph(mask) {}
 
   PixelGraph graph;
   Lazy<PixelSolver> pixels;
+  /// By quality.
+  std::array<Lazy<Membrane>, 3> membranes;
 
   Result<std::shared_ptr<const PixelSolver>> full(const Watch& watch) {
     return pixels.get([&] { return PixelSolver::make(graph.mask, watch); });
@@ -52,8 +33,18 @@ const PixelGraph& CloneSystem::graph() const {
   return data_->graph;
 }
 
-Result<void> CloneSystem::prepare(BlendMode mode, CloneQuality, const Watch& watch) const {
+Result<std::shared_ptr<const Membrane>> CloneSystem::membrane(CloneQuality quality, const Watch& watch) const {
+  CHECK(quality != CloneQuality::kExport, "export is solved on every pixel");
+  const auto which = static_cast<std::size_t>(quality);
+  return data_->membranes[which].get([&] { return Membrane::make(graph(), 1 << which, watch); });
+}
+
+Result<void> CloneSystem::prepare(BlendMode mode, CloneQuality quality, const Watch& watch) const {
   if (mode == BlendMode::kNone) return {};
+  if (mode != BlendMode::kMixed && quality != CloneQuality::kExport) {
+    if (const auto made = membrane(quality, watch); !made) return made.error();
+    return {};
+  }
   if (const auto made = data_->full(watch); !made) return made.error();
   return {};
 }

@@ -3,6 +3,7 @@
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/clone/blend.h"
+#include "core/clone/membrane.h"
 #include "core/clone/pixel_graph.h"
 #include "core/clone/pixel_solver.h"
 
@@ -13,13 +14,13 @@
 
 namespace oversketch {
 
-/// How near to the exact solution.  With the membrane of clone modes import, monochrome and average; mixed gradients
-/// are solved on every pixel in any quality.
+/// How near to the exact solution, in 8-bit levels, worst pixel; on photographs, and for differences along the ring
+/// that are white noise over all 255 levels.  Mixed gradients are solved on every pixel in any quality.
 enum class CloneQuality {
-  kFirst,  ///< while nothing better is there: within 2.7 levels on photographs
-  kDrag,   ///< within a level
-  kRest,   ///< within 0.3 levels
-  kExport, ///< within 0.03 levels
+  kFirst,  ///< membrane with k = 1: 2 (4); ready soonest
+  kDrag,   ///< membrane with k = 2: 0.7 (0.9)
+  kRest,   ///< membrane with k = 4: 0.25 (0.25)
+  kExport, ///< on every pixel: 0.03
 };
 
 /// All that blending needs and that depends on the mask alone; kept as long as the mask stays.  A move by whole pixels
@@ -40,6 +41,10 @@ public:
   /// Makes the parts that a blend of that mode and quality needs, so that the blend itself does not wait for them.
   /// @errors clone.too-large, cancelled.
   Result<void> prepare(BlendMode mode, CloneQuality quality, const Watch& watch = {}) const;
+
+  /// For modes import, monochrome and average in any quality but kExport (CHECK).
+  /// @errors those of Membrane::make.
+  Result<std::shared_ptr<const Membrane>> membrane(CloneQuality quality, const Watch& watch = {}) const;
 
   /// A solution on every pixel of the mask.
   struct Solution {

@@ -11,6 +11,14 @@ Channels surplus(const PlacedPair::Values& p, const PlacedPair::Values& q) {
 
 } // namespace
 
+std::vector<Channels> ring_differences(const PlacedPair& pair, const PixelGraph& graph) {
+  std::vector<Channels> differences;
+  differences.reserve(graph.ring.size());
+  for (const PixelGraph::RingEdge& edge : graph.ring)
+    differences.push_back(pair.difference(edge.x, edge.y));
+  return differences;
+}
+
 std::vector<Channels> membrane_side(const PlacedPair& pair, const PixelGraph& graph) {
   std::vector<Channels> side(static_cast<std::size_t>(graph.count));
   for (const PixelGraph::RingEdge& edge : graph.ring)

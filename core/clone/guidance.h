@@ -11,6 +11,9 @@ namespace oversketch {
 /// Right-hand sides of A u = b, A the 5-point Laplacian of the mask, u = f − g the correction of the source; by pixel
 /// number.  d = f* − g below.
 
+/// d at the outer pixel of each of the graph's ring edges.
+std::vector<Channels> ring_differences(const PlacedPair& pair, const PixelGraph& graph);
+
 /// Import: u harmonic, u = d on the ring:  b_p = Σ_{q ∉ Ω} d_q over the neighbours q of p.  Only the ring is read.
 std::vector<Channels> membrane_side(const PlacedPair& pair, const PixelGraph& graph);
 

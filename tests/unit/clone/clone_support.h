@@ -47,6 +47,64 @@ inline Mask ring_mask(int x, int y, int outer, int hole) {
   return Mask(std::move(runs));
 }
 
+/// Small masks of every kind: one pixel, thin, with holes, scattered.
+inline std::vector<Mask> shapes() {
+  return {rect_mask({5, -3, 1, 1}),
+          rect_mask({0, 0, 40, 1}),
+          rect_mask({0, 0, 1, 40}),
+          rect_mask({-20, -20, 17, 23}),
+          ring_mask(3, 3, 15, 7),
+          ring_mask(0, 0, 9, 7),
+          random_mask({-5, -5, 40, 30}, 0.5, 1),
+          random_mask({0, 0, 50, 50}, 0.9, 2),
+          random_mask({0, 0, 60, 60}, 0.1, 3)};
+}
+
+/// The pixels by number.
+inline std::vector<std::pair<int, int>> places(const Mask& mask) {
+  std::vector<std::pair<int, int>> out;
+  for (const Mask::Run& run : mask.runs())
+    for (int x = run.x0; x < run.x1; ++x)
+      out.push_back({x, run.y});
+  return out;
+}
+
+/// Every pixel of the box whose centre passes.
+template <class IsIn>
+Mask mask_where(const Rect& box, IsIn is_in) {
+  std::vector<Mask::Run> runs;
+  for (int y = box.y; y < box.bottom(); ++y)
+    for (int x = box.x; x < box.right(); ++x)
+      if (is_in(x, y)) runs.push_back({y, x, x + 1});
+  return Mask(std::move(runs));
+}
+
+inline Mask disc_mask(int x, int y, int radius) {
+  return mask_where({x - radius, y - radius, 2 * radius + 1, 2 * radius + 1},
+                    [=](int u, int v) { return (u - x) * (u - x) + (v - y) * (v - y) <= radius * radius; });
+}
+
+/// A band that winds from side to side.
+inline Mask snake_mask(int width, int height, int band) {
+  return mask_where({-7, 4, width, height}, [=](int x, int y) {
+    const double middle = -7 + width / 2.0 + (width - band) / 2.0 * std::sin(0.05 * y);
+    return std::abs(x - middle) < band / 2.0;
+  });
+}
+
+/// A square with round holes.
+inline Mask holed_mask(int side, int every, int radius) {
+  return mask_where({3, -9, side, side}, [=](int x, int y) {
+    const int u = (x - 3) % every - every / 2, v = (y + 9) % every - every / 2;
+    return u * u + v * v > radius * radius;
+  });
+}
+
+/// Large enough for leaves of many sizes.
+inline std::vector<Mask> large_shapes() {
+  return {disc_mask(40, -30, 120), snake_mask(300, 300, 40), holed_mask(200, 66, 6), rect_mask({-9, 5, 257, 130})};
+}
+
 inline Raster<Rgba> noise(int width, int height, unsigned seed, float low = 0, float high = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> value(low, high);

@@ -12,26 +12,6 @@
 namespace oversketch {
 namespace {
 
-std::vector<Mask> shapes() {
-  return {rect_mask({5, -3, 1, 1}),
-          rect_mask({0, 0, 40, 1}),
-          rect_mask({0, 0, 1, 40}),
-          rect_mask({-20, -20, 17, 23}),
-          ring_mask(3, 3, 15, 7),
-          ring_mask(0, 0, 9, 7),
-          random_mask({-5, -5, 40, 30}, 0.5, 1),
-          random_mask({0, 0, 50, 50}, 0.9, 2),
-          random_mask({0, 0, 60, 60}, 0.1, 3)};
-}
-
-std::vector<std::pair<int, int>> places(const Mask& mask) {
-  std::vector<std::pair<int, int>> out;
-  for (const Mask::Run& run : mask.runs())
-    for (int x = run.x0; x < run.x1; ++x)
-      out.push_back({x, run.y});
-  return out;
-}
-
 TEST(PixelSolver, RefusesEmptyAndHugeMasksAndStops) {
   EXPECT_EQ(PixelSolver::make(Mask()).error().code, "clone.empty-mask");
   const Mask square = rect_mask({0, 0, 30, 30});
