@@ -79,7 +79,7 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
   if (const Result<void> good = check_call(target, source, mask, given, 1); !good) return good.error();
   const BlendOptions options = without_detours(given);
   const PlacedPair pair(target, source, dx, dy, options);
-  CloneReport report{mask.count(), 0, painted_rect(target, mask, dx, dy)};
+  CloneReport report{mask.count(), 0, painted_rect(target.rect(), mask, dx, dy)};
   if (report.changed.empty()) return report;
   if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
   if (const Result<void> good = check_ring(pair, system.graph()); !good) return good.error();
@@ -104,7 +104,7 @@ Result<CloneReport> paste_into(Raster<Rgba>& target, const WarpedRegion& source,
   options.mode = BlendMode::kNone;
   if (const Result<void> good = check_call(target, source, mask, options, 0); !good) return good.error();
   const PlacedPair pair(target, source, dx, dy, options);
-  const CloneReport report{mask.count(), 0, painted_rect(target, mask, dx, dy)};
+  const CloneReport report{mask.count(), 0, painted_rect(target.rect(), mask, dx, dy)};
   if (report.changed.empty()) return report;
   if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
   const StageTimer timer(watch.times, "clone.paint");

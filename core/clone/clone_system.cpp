@@ -1,9 +1,11 @@
 #include "core/clone/clone_system.h"
 
 #include "core/base/check.h"
+#include "core/clone/feather.h"
 #include "core/clone/lazy.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace oversketch {
@@ -12,6 +14,7 @@ struct CloneSystem::Data {
 
   PixelGraph graph;
   Lazy<PixelSolver> pixels;
+  Lazy<std::vector<float>> depths;
   /// By quality.
   std::array<Lazy<Membrane>, 3> membranes;
 
@@ -37,6 +40,17 @@ Result<std::shared_ptr<const Membrane>> CloneSystem::membrane(CloneQuality quali
   CHECK(quality != CloneQuality::kExport, "export is solved on every pixel");
   const auto which = static_cast<std::size_t>(quality);
   return data_->membranes[which].get([&] { return Membrane::make(graph(), 1 << which, watch); });
+}
+
+std::shared_ptr<const std::vector<float>> CloneSystem::depths() const {
+  return data_->depths
+      .get([&]() -> Result<std::vector<float>> {
+        std::vector<float> depths;
+        for (const double squared : squared_depths(graph()))
+          depths.push_back(static_cast<float>(std::sqrt(squared)));
+        return depths;
+      })
+      .value();
 }
 
 Result<void> CloneSystem::prepare(BlendMode mode, CloneQuality quality, const Watch& watch) const {

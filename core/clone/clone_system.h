@@ -42,6 +42,9 @@ public:
   /// @errors clone.too-large, cancelled.
   Result<void> prepare(BlendMode mode, CloneQuality quality, const Watch& watch = {}) const;
 
+  /// How far from each pixel's centre the nearest centre outside the mask is, px, by pixel number.
+  std::shared_ptr<const std::vector<float>> depths() const;
+
   /// For modes import, monochrome and average in any quality but kExport (CHECK).
   /// @errors those of Membrane::make.
   Result<std::shared_ptr<const Membrane>> membrane(CloneQuality quality, const Watch& watch = {}) const;

@@ -1,6 +1,7 @@
 #include "core/clone/membrane.h"
 
 #include "core/base/check.h"
+#include "core/clone/float_factor.h"
 #include "core/clone/membrane_matrix.h"
 #include "core/clone/pixel_solver.h"
 #include "core/clone/quadtree.h"
@@ -23,50 +24,6 @@ template <class T>
 std::int64_t size_of(const std::vector<T>& values) {
   return static_cast<std::int64_t>(values.capacity() * sizeof(T));
 }
-
-/// L of A = L Lᵀ, column by column without the diagonal, which is kept as its reciprocal.
-struct FloatFactor {
-  std::vector<int> start;
-  std::vector<int> row;
-  std::vector<float> entry;
-  std::vector<float> inverse;
-
-  explicit FloatFactor(const Matrix& lower) : start(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1) {
-    const auto n = index(static_cast<int>(lower.cols()));
-    row.reserve(index(start[n]) - n);
-    entry.reserve(row.capacity());
-    inverse.reserve(n);
-    for (std::size_t j = 0; j < n; ++j) {
-      const int first = start[j], last = start[j + 1];
-      start[j] = static_cast<int>(row.size());
-      inverse.push_back(static_cast<float>(1 / lower.valuePtr()[first]));
-      for (int at = first + 1; at < last; ++at) {
-        row.push_back(lower.innerIndexPtr()[at]);
-        entry.push_back(static_cast<float>(lower.valuePtr()[at]));
-      }
-    }
-    start[n] = static_cast<int>(row.size());
-  }
-
-  /// x = L⁻ᵀ L⁻¹ x.
-  void substitute(Float4* x) const {
-    const std::size_t n = inverse.size();
-    for (std::size_t j = 0; j < n; ++j) {
-      const Float4 value = inverse[j] * x[j];
-      for (int at = start[j]; at < start[j + 1]; ++at)
-        x[row[index(at)]] -= entry[index(at)] * value;
-      x[j] = value;
-    }
-    for (std::size_t j = n; j-- > 0;) {
-      Float4 sum = x[j];
-      for (int at = start[j]; at < start[j + 1]; ++at)
-        sum -= entry[index(at)] * x[row[index(at)]];
-      x[j] = inverse[j] * sum;
-    }
-  }
-
-  std::int64_t bytes() const { return size_of(start) + size_of(row) + size_of(entry) + size_of(inverse); }
-};
 
 /// The leaf at the inner end of each of the ring's edges.
 std::vector<int> find_ring_leaves(const PixelGraph& graph, const Quadtree& tree) {
@@ -223,7 +180,7 @@ int Membrane::k() const {
 }
 
 int Membrane::unknowns() const {
-  return static_cast<int>(data_->factor.inverse.size());
+  return data_->factor.size();
 }
 
 std::int64_t Membrane::bytes() const {
@@ -235,7 +192,7 @@ std::int64_t Membrane::bytes() const {
 MembraneValues Membrane::solve(std::span<const Float4> ring) const {
   const Data& d = *data_;
   CHECK(ring.size() == d.ring.size(), "one value for each edge of the ring");
-  const std::size_t n = d.factor.inverse.size();
+  const std::size_t n = index(d.factor.size());
   // The means stand before the solution: place p is x[p] for negative p too.
   std::vector<Float4> values(d.means.size() + n);
   Float4* const x = values.data() + d.means.size();

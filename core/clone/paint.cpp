@@ -10,33 +10,12 @@
 namespace oversketch {
 namespace {
 
-/// A run clipped to the target: columns x0 ≤ x < x1 and row y of the target, `pixel` the number of the first one.
-struct TargetRun {
-  int y = 0;
-  int x0 = 0;
-  int x1 = 0;
-  int pixel = 0;
-
-  int length() const { return x1 - x0; }
-};
-
-/// Empty (x0 ≥ x1) when it lies outside.
-TargetRun clip(const Raster<Rgba>& target, const Mask::Run& run, int first, int dx, int dy) {
-  // dx and dy may be any int.
-  const std::int64_t y = static_cast<std::int64_t>(run.y) + dy;
-  if (y < 0 || y >= target.height()) return {};
-  const std::int64_t left = static_cast<std::int64_t>(run.x0) + dx;
-  const auto x0 = std::clamp<std::int64_t>(left, 0, target.width());
-  const auto x1 = std::clamp<std::int64_t>(static_cast<std::int64_t>(run.x1) + dx, 0, target.width());
-  if (x0 >= x1) return {};
-  return {static_cast<int>(y), static_cast<int>(x0), static_cast<int>(x1), first + static_cast<int>(x0 - left)};
-}
-
 std::vector<TargetRun> clip_runs(const Raster<Rgba>& target, const PixelGraph& graph, int dx, int dy) {
   std::vector<TargetRun> out;
   const std::vector<Mask::Run>& runs = graph.mask.runs();
   for (std::size_t k = 0; k < runs.size(); ++k)
-    if (const TargetRun run = clip(target, runs[k], graph.first[k], dx, dy); run.x0 < run.x1) out.push_back(run);
+    if (const TargetRun run = clip_run(target.rect(), runs[k], graph.first[k], dx, dy); run.x0 < run.x1)
+      out.push_back(run);
   return out;
 }
 
@@ -94,10 +73,21 @@ float largest_of(const Rgba& p) {
 
 } // namespace
 
-Rect painted_rect(const Raster<Rgba>& target, const Mask& mask, int dx, int dy) {
+TargetRun clip_run(const Rect& target, const Mask::Run& run, int first, int dx, int dy) {
+  // dx and dy may be any int.
+  const std::int64_t y = static_cast<std::int64_t>(run.y) + dy;
+  if (y < 0 || y >= target.height) return {};
+  const std::int64_t left = static_cast<std::int64_t>(run.x0) + dx;
+  const auto x0 = std::clamp<std::int64_t>(left, 0, target.width);
+  const auto x1 = std::clamp<std::int64_t>(static_cast<std::int64_t>(run.x1) + dx, 0, target.width);
+  if (x0 >= x1) return {};
+  return {static_cast<int>(y), static_cast<int>(x0), static_cast<int>(x1), first + static_cast<int>(x0 - left)};
+}
+
+Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy) {
   Rect box;
   for (const Mask::Run& run : mask.runs())
-    if (const TargetRun t = clip(target, run, 0, dx, dy); t.x0 < t.x1) box = unite(box, {t.x0, t.y, t.length(), 1});
+    if (const TargetRun t = clip_run(target, run, 0, dx, dy); t.x0 < t.x1) box = unite(box, {t.x0, t.y, t.length(), 1});
   return box;
 }
 

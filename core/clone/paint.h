@@ -17,8 +17,23 @@ struct Painting {
   std::span<const Channels> correction;
 };
 
+/// A run shifted by (dx, dy) and clipped to the target: columns x0 ≤ x < x1 and row y of the target, `pixel` the number
+/// of the first one.
+struct TargetRun {
+  int y = 0;
+  int x0 = 0;
+  int x1 = 0;
+  int pixel = 0;
+
+  int length() const { return x1 - x0; }
+};
+
+/// Empty (x0 ≥ x1) when it lies outside.
+/// @param first  number of the run's first pixel.
+TargetRun clip_run(const Rect& target, const Mask::Run& run, int first, int dx, int dy);
+
 /// Box round the pixels of the target under the mask shifted by (dx, dy); all zero when there are none.
-Rect painted_rect(const Raster<Rgba>& target, const Mask& mask, int dx, int dy);
+Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy);
 
 /// Writes the blended pixels (see clone_into) into the target: all of them, or none after an error.
 /// @param target  the one that the pair reads.

@@ -41,17 +41,18 @@ public:
   int target_y(int y) const { return clamp_to(y, dy_, target_.height()); }
 
   /// The source's colour as it is blended: in the domain, grey in mode monochrome.
-  Channels source_values(const Rgba& pixel) const {
-    const Channels values = to_domain(pixel, domain_);
-    if (!monochrome_) return values;
+  Channels source_values(const Rgba& pixel) const { return values_of(pixel, domain_, monochrome_); }
+
+  static Channels values_of(const Rgba& pixel, Domain domain, bool monochrome) {
+    const Channels values = to_domain(pixel, domain);
+    if (!monochrome) return values;
     // Rec. 709 luminance weights, on the domain's values.
     const double grey = 0.2126 * values.v[0] + 0.7152 * values.v[1] + 0.0722 * values.v[2];
     return {{grey, grey, grey, 0}};
   }
 
-  Values at(int x, int y) const {
-    const Rgba &s = source_pixel(x, y), &t = target_pixel(x, y);
-    Values out{source_values(s), to_domain(t, domain_)};
+  static Values pair_of(const Rgba& s, const Rgba& t, Domain domain, bool monochrome) {
+    Values out{values_of(s, domain, monochrome), to_domain(t, domain)};
     if (s.a == 1 && t.a == 1) return out;
     const double a = s.a, b = t.a;
     const Channels difference = out.target - out.source;
@@ -59,6 +60,8 @@ public:
     out.target = out.source + (a * b) * difference;
     return out;
   }
+
+  Values at(int x, int y) const { return pair_of(source_pixel(x, y), target_pixel(x, y), domain_, monochrome_); }
 
   Channels difference(int x, int y) const {
     const Values values = at(x, y);

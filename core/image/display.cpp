@@ -1,5 +1,7 @@
 #include "core/image/display.h"
 
+#include "core/base/check.h"
+
 #include <algorithm>
 
 namespace oversketch {
@@ -22,6 +24,15 @@ Raster<Rgba8> to_display(const Image& image) {
   Raster<Rgba8> out(image.width(), image.height());
   std::transform(image.pixels().values().begin(), image.pixels().values().end(), out.values().begin(),
                  [](const Rgba& pixel) { return to_display(pixel); });
+  return out;
+}
+
+Raster<Rgba8> to_display(const Raster<Rgba>& pixels, const Rect& part) {
+  CHECK(intersect(part, pixels.rect()) == part || part.empty(), "the part lies in the picture");
+  Raster<Rgba8> out(part.width, part.height);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x)
+      out.at(x, y) = to_display(pixels.at(part.x + x, part.y + y));
   return out;
 }
 

@@ -21,5 +21,12 @@ struct Rgba8 {
 Rgba8 to_display(const Rgba& pixel);
 /// @cost about 2 ns a pixel.
 Raster<Rgba8> to_display(const Image& image);
+/// The part of a picture that lies in the rectangle, which must lie in the picture (CHECK).
+Raster<Rgba8> to_display(const Raster<Rgba>& pixels, const Rect& part);
+/// Exactly the values of a picture read from 8 bits.
+inline Rgba from_display(const Rgba8& pixel) {
+  const auto value = [](std::uint8_t level) { return static_cast<float>(level) / 255.0f; };
+  return {value(pixel.r), value(pixel.g), value(pixel.b), value(pixel.a)};
+}
 
 } // namespace oversketch

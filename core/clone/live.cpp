@@ -1,0 +1,190 @@
+#include "core/clone/live.h"
+
+#include "core/base/check.h"
+#include "core/clone/correction.h"
+#include "core/clone/live_blend.h"
+#include "core/clone/live_data.h"
+#include "core/clone/paint.h"
+#include "core/clone/placed_pair.h"
+
+#include <algorithm>
+#include <functional>
+#include <thread>
+
+namespace oversketch {
+namespace {
+
+using Data = LiveRegion::Data;
+
+struct Place {
+  int dx = 0;
+  int dy = 0;
+};
+
+int clamp_to(int x, int shift, int size) {
+  return static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(x) + shift, 0, size - 1));
+}
+
+std::vector<LiveRow> list_rows(const Raster<Rgba8>& below, Raster<Rgba8>& out, const PixelGraph& graph, Place at) {
+  std::vector<LiveRow> rows;
+  const std::vector<Mask::Run>& runs = graph.mask.runs();
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const TargetRun t = clip_run(below.rect(), runs[run], graph.first[run], at.dx, at.dy);
+    if (t.x0 >= t.x1) continue;
+    const int skipped = t.pixel - graph.first[run];
+    rows.push_back({run, runs[run].y, skipped, t.length(), static_cast<std::size_t>(t.pixel), &below.at(t.x0, t.y),
+                    &out.at(t.x0, t.y)});
+  }
+  return rows;
+}
+
+/// d on the ring, times `scale`, and the widest range of a channel.
+struct RingValues {
+  std::vector<Float4> values;
+  double range = 0;
+};
+
+RingValues ring_values(const Raster<Rgba8>& below, const Data& region, Place at, const BlendOptions& options,
+                       float scale) {
+  const PixelGraph& graph = region.system.graph();
+  const bool monochrome = options.mode == BlendMode::kMonochrome;
+  RingValues out;
+  out.values.reserve(graph.ring.size());
+  Channels low, high;
+  for (std::size_t i = 0; i < graph.ring.size(); ++i) {
+    const PixelGraph::RingEdge& edge = graph.ring[i];
+    const Rgba target =
+        from_display(below.at(clamp_to(edge.x, at.dx, below.width()), clamp_to(edge.y, at.dy, below.height())));
+    const PlacedPair::Values pair = PlacedPair::pair_of(region.ring[i], target, options.domain, monochrome);
+    const Channels d = pair.target - pair.source;
+    if (i == 0) low = high = d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      low.v[k] = std::min(low.v[k], d.v[k]);
+      high.v[k] = std::max(high.v[k], d.v[k]);
+    }
+    out.values.push_back(
+        {scale * Float4::Lanes{static_cast<float>(d.v[0]), static_cast<float>(d.v[1]), static_cast<float>(d.v[2]), 0}});
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    out.range = std::max(out.range, high.v[k] - low.v[k]);
+  return out;
+}
+
+/// The rows in parts with about as many pixels each; the first is painted by this thread.
+void in_parts(std::span<const LiveRow> rows, int threads, const std::function<void(std::span<const LiveRow>)>& paint) {
+  std::size_t left = 0;
+  for (const LiveRow& row : rows)
+    left += static_cast<std::size_t>(row.count);
+  std::vector<std::jthread> others;
+  for (int part = threads; part > 1; --part) {
+    const std::size_t share = left / static_cast<std::size_t>(part);
+    std::size_t taken = 0, end = rows.size();
+    while (end > 0 && taken < share)
+      taken += static_cast<std::size_t>(rows[--end].count);
+    others.emplace_back([&paint, own = rows.subspan(end)] { paint(own); });
+    rows = rows.first(end);
+    left -= taken;
+  }
+  paint(rows);
+}
+
+/// Source and target in float, where the mask lies: for what must be solved on every pixel.
+Result<Correction> solve_in_float(const Raster<Rgba8>& below, const Data& region, Place at, const BlendOptions& options,
+                                  CloneQuality quality, const Watch& watch) {
+  const PixelGraph& graph = region.system.graph();
+  const Rect box = grown(graph.mask.bounds(), 1);
+  // Of the target what the box covers; its edges are repeated where they are the target's.
+  const int x0 = clamp_to(box.x, at.dx, below.width()), x1 = clamp_to(box.right() - 1, at.dx, below.width());
+  const int y0 = clamp_to(box.y, at.dy, below.height()), y1 = clamp_to(box.bottom() - 1, at.dy, below.height());
+  Raster<Rgba> target(x1 - x0 + 1, y1 - y0 + 1);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x)
+      target.at(x - x0, y - y0) = from_display(below.at(x, y));
+  WarpedRegion source{box, Raster<Rgba>(box.width, box.height)};
+  const auto unpack = [](std::int16_t v) { return static_cast<float>(v - 32) / LivePixel::kOpaque; };
+  std::size_t k = 0;
+  for (const Mask::Run& run : graph.mask.runs())
+    for (int x = run.x0; x < run.x1; ++x, ++k) {
+      const LivePixel& p = region.pixels[k];
+      source.pixels.at(x - box.x, run.y - box.y) = {unpack(p.r), unpack(p.g), unpack(p.b), unpack(p.a)};
+    }
+  for (std::size_t i = 0; i < graph.ring.size(); ++i)
+    source.pixels.at(graph.ring[i].x - box.x, graph.ring[i].y - box.y) = region.ring[i];
+  return solve_correction(PlacedPair(target, source, at.dx - x0, at.dy - y0, options), region.system, options.mode,
+                          quality, watch);
+}
+
+bool needs_solution(const BlendOptions& options) {
+  return options.mode != BlendMode::kNone && (options.strength > 0 || options.feather_px > 0);
+}
+
+/// Whether f = g + u and nothing else.
+bool is_plain_import(const Data& region, const BlendOptions& options) {
+  return region.is_opaque && options.mode == BlendMode::kImport && options.domain == Domain::kEncoded &&
+         options.strength == 1 && options.opacity == 1;
+}
+
+/// @returns the bound on the error, in the domain's values.
+Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const Data& region, Place at,
+                           const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
+  BlendPainting painting{region, options};
+  MembraneValues values;
+  std::shared_ptr<const Membrane> membrane;
+  Correction correction;
+  const bool plain = is_plain_import(region, options);
+  if (needs_solution(options) && options.mode != BlendMode::kMixed && quality != CloneQuality::kExport) {
+    const auto made = region.system.membrane(quality, watch);
+    if (!made) return made.error();
+    membrane = *made;
+    const StageTimer timer(watch.times, "clone.solve");
+    const RingValues ring = ring_values(below, region, at, options, plain ? LivePixel::kOpaque : 1.0F);
+    values = membrane->solve(ring.values);
+    painting.membrane = membrane.get();
+    painting.values = &values;
+    correction.error = membrane->error_share() * ring.range;
+  } else if (needs_solution(options)) {
+    auto solved = solve_in_float(below, region, at, options, quality, watch);
+    if (!solved) return solved.error();
+    correction = std::move(*solved);
+    painting.correction = correction.values;
+  }
+  if (watch.stopped()) return cancelled();
+
+  const StageTimer timer(watch.times, "clone.paint");
+  const std::vector<LiveRow> rows = list_rows(below, out, region.system.graph(), at);
+  if (plain && membrane) {
+    const RowPainting plain_painting{*membrane, values, region.pixels.data()};
+    const auto paint = has_avx2() ? paint_rows_avx2 : paint_rows;
+    in_parts(rows, threads, [&](std::span<const LiveRow> part) { paint(plain_painting, part); });
+    return correction.error;
+  }
+  const auto tables = region.tables_of(options.domain);
+  painting.tables = tables.get();
+  std::shared_ptr<const std::vector<float>> depths;
+  if (options.feather_px > 0 && (options.strength < 1 || options.mode == BlendMode::kNone))
+    depths = region.system.depths();
+  painting.depths = depths.get();
+  in_parts(rows, threads, [&](std::span<const LiveRow> part) { paint_blended(painting, part); });
+  return correction.error;
+}
+
+} // namespace
+
+Result<CloneReport> clone_live(const Raster<Rgba8>& below, Raster<Rgba8>& out, const LiveRegion& region,
+                               const CloneSystem& system, int dx, int dy, const BlendOptions& options,
+                               CloneQuality quality, int threads, const Watch& watch) {
+  const Data& data = region.data();
+  CHECK(below.rect() == out.rect(), "the layer is painted into a picture of the same size");
+  CHECK(&data.system.graph() == &system.graph(), "the region was made with the system");
+  CHECK(threads >= 1 && threads <= 64, "threads that paint");
+  if (const Result<void> good = check_options(options); !good) return good.error();
+  if (below.empty()) return Error{"clone.empty-target", "The target picture has no pixels.", ""};
+  CloneReport report{system.mask().count(), 0, painted_rect(below.rect(), system.mask(), dx, dy)};
+  if (report.changed.empty()) return report;
+  const Result<double> error = paint_layer(below, out, data, {dx, dy}, options, quality, threads, watch);
+  if (!error) return error.error();
+  report.residual_levels = 255 * *error * largest_slope(options.domain, 1);
+  return report;
+}
+
+} // namespace oversketch

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/clone/domain_tables.h"
+#include "core/clone/lazy.h"
+#include "core/clone/live.h"
+#include "core/clone/live_rows.h"
+
+#include <array>
+#include <vector>
+
+namespace oversketch {
+
+struct LiveRegion::Data {
+  CloneSystem system;
+  /// By pixel number.
+  std::vector<LivePixel> pixels;
+  /// The source at the outer pixel of each of the graph's ring edges.
+  std::vector<Rgba> ring;
+  /// Whether all pixels are.
+  bool is_opaque = true;
+  /// Of the domains but kEncoded, made when they are first used.
+  mutable std::array<Lazy<DomainTables>, 2> tables;
+
+  explicit Data(const CloneSystem& of) : system(of) {}
+
+  /// Null in the encoded domain.
+  std::shared_ptr<const DomainTables> tables_of(Domain domain) const {
+    if (domain == Domain::kEncoded) return nullptr;
+    return tables[domain == Domain::kLog].get([&] { return Result<DomainTables>(DomainTables(domain)); }).value();
+  }
+};
+
+} // namespace oversketch

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/clone/membrane.h"
+#include "core/image/display.h"
+
+#include <cstdint>
+#include <span>
+
+namespace oversketch {
+
+/// A pixel of the source: 64 · level + 32 of red, green, blue and alpha.  The half is for rounding down at the end.
+struct LivePixel {
+  static constexpr float kPerLevel = 64;
+  static constexpr float kOpaque = kPerLevel * 255;
+
+  std::int16_t r = 0;
+  std::int16_t g = 0;
+  std::int16_t b = 0;
+  std::int16_t a = 0;
+
+  bool is_opaque() const { return a >= 255 * 64 + 32; }
+};
+
+/// A run of the mask as far as it lies on the target.
+struct LiveRow {
+  /// Its number in the mask, its row there, and how many of its pixels come before the target's left edge.
+  std::size_t run = 0;
+  int y = 0;
+  int skipped = 0;
+  int count = 0;
+  /// Of its first pixel on the target: its number, what is there, and where it is painted.
+  std::size_t pixel = 0;
+  const Rgba8* below = nullptr;
+  Rgba8* out = nullptr;
+};
+
+/// Paints g + u on opaque pixels, u in units of LivePixel.
+/// @param source  by pixel number.
+struct RowPainting {
+  const Membrane& membrane;
+  const MembraneValues& values;
+  const LivePixel* source;
+};
+
+/// On any processor, and on those that can do so by AVX2 (CHECK, see has_avx2): the same bits.
+void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows);
+void paint_rows_avx2(const RowPainting& painting, std::span<const LiveRow> rows);
+bool has_avx2();
+
+} // namespace oversketch
