@@ -53,6 +53,10 @@ std::shared_ptr<const std::vector<float>> CloneSystem::depths() const {
       .value();
 }
 
+bool CloneSystem::has_membrane(CloneQuality quality) const {
+  return quality != CloneQuality::kExport && data_->membranes[static_cast<std::size_t>(quality)].is_made();
+}
+
 Result<void> CloneSystem::prepare(BlendMode mode, CloneQuality quality, const Watch& watch) const {
   if (mode == BlendMode::kNone) return {};
   if (mode != BlendMode::kMixed && quality != CloneQuality::kExport) {

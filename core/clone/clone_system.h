@@ -44,6 +44,8 @@ public:
 
   /// How far from each pixel's centre the nearest centre outside the mask is, px, by pixel number.
   std::shared_ptr<const std::vector<float>> depths() const;
+  /// Whether membrane() would find it made.
+  bool has_membrane(CloneQuality quality) const;
 
   /// For modes import, monochrome and average in any quality but kExport (CHECK).
   /// @errors those of Membrane::make.

@@ -25,8 +25,14 @@ public:
     return part_;
   }
 
+  /// Whether get() would find it; waits for nobody: while it is being made it is not there.
+  bool is_made() const {
+    const std::unique_lock lock(making_, std::try_to_lock);
+    return lock.owns_lock() && part_ != nullptr;
+  }
+
 private:
-  std::mutex making_;
+  mutable std::mutex making_;
   std::shared_ptr<const T> part_;
 };
 

@@ -18,6 +18,9 @@ class ContentCache {
 public:
   explicit ContentCache(std::size_t capacity) : capacity_(capacity) {}
 
+  /// Holds at least so many from now on.
+  void grow(std::size_t capacity) { capacity_ = std::max(capacity_, capacity); }
+
   std::shared_ptr<const T> find(const Hash& key) {
     const auto found =
         std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry.first == key; });

@@ -1,5 +1,6 @@
 #include "core/session/live_session.h"
 
+#include "core/session/live_alternatives.h"
 #include "core/session/live_inbox.h"
 #include "core/session/live_picture.h"
 #include "core/session/live_snapshot.h"
@@ -8,6 +9,7 @@
 #include <chrono>
 #include <exception>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 namespace oversketch {
@@ -21,7 +23,7 @@ constexpr std::chrono::milliseconds kShowAtLeastEvery{50};
 
 /// The work, with what libraries throw turned into an Error.
 template <class Work>
-Result<void> guarded(Work work) {
+std::invoke_result_t<Work> guarded(Work work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
@@ -67,6 +69,8 @@ struct LiveSession::State {
   Session session;
   live::SnapshotMaker snapshots;
   live::Picture picture;
+  live::Picture compare_picture;
+  live::Alternatives alternatives;
   live::View view;
   std::optional<Error> problem;
   std::uint64_t problem_number = 0;
@@ -90,8 +94,10 @@ struct LiveSession::State {
   Result<void> carry_out(live::Jump& request, const Watch&) { return session.jump(request.entry); }
   Result<void> carry_out(live::Run& request, const Watch& watch);
   Result<void> carry_out(live::View& request, const Watch&);
-  /// @returns whether it came to its end.
-  bool show(live::Quality quality, const std::stop_token& stop);
+  void show(live::Quality quality, const std::stop_token& stop);
+  Result<void> paint(live::Quality quality, const Watch& watch, PictureUpdate& changed);
+  std::optional<Layer> compared_layer() const;
+  Result<void> compare(live::Quality quality, Snapshot& made, const Watch& watch);
   void refuse(Error error);
   void publish(Snapshot made, PictureUpdate changed);
   /// Says that nothing is being done, if that is so.
@@ -268,14 +274,65 @@ Result<void> LiveSession::State::carry_out(live::View& request, const Watch&) {
   return {};
 }
 
-bool LiveSession::State::show(live::Quality quality, const std::stop_token& stop) {
-  Watch watch = watch_of(stop);
+void LiveSession::State::show(live::Quality quality, const std::stop_token& stop) {
+  const Watch watch = watch_of(stop);
   PictureUpdate changed;
-  const auto painted = guarded([&] { return picture.update(session, quality, watch, changed); });
+  const auto painted = guarded([&] { return paint(quality, watch, changed); });
   if (!painted && painted.error() != cancelled()) refuse(painted.error());
-  publish(snapshots.make(session, quality == live::Quality::kRest && painted, watch), std::move(changed));
+  const bool rested = quality == live::Quality::kRest && painted;
+  Snapshot made = snapshots.make(session, rested, watch);
+  for (LayerSnapshot& layer : made.layers)
+    if (const auto timing = picture.timing_of(layer.id)) {
+      layer.mask_ms = timing->mask_ms;
+      layer.blend_ms = timing->blend_ms;
+    }
+  if (const auto compared = guarded([&] { return compare(quality, made, watch); });
+      !compared && compared.error() != cancelled())
+    refuse(compared.error());
+  if (rested && view.alternatives)
+    if (auto found = guarded([&] { return alternatives.list(session, watch); }); found)
+      made.alternatives = std::move(*found);
+  publish(std::move(made), std::move(changed));
   last_shown = Clock::now();
-  return painted.ok();
+}
+
+Result<void> LiveSession::State::paint(live::Quality quality, const Watch& watch, PictureUpdate& changed) {
+  const auto layers = session.drawn_layers(nullptr, watch);
+  if (!layers) return layers.error();
+  return picture.paint(snapshots.show(session.shown().target.image).pixels, *layers, quality, watch, changed);
+}
+
+/// The selected layer, as the comparison takes it.
+std::optional<Layer> LiveSession::State::compared_layer() const {
+  const Document& shown = session.shown();
+  const Layer* selected = shown.selected ? shown.find(*shown.selected) : nullptr;
+  if (view.compare == Compare::kOff || selected == nullptr || selected->outline.empty()) return std::nullopt;
+  Layer other = *selected;
+  LayerSettings& settings = other.settings;
+  settings.visible = view.compare != Compare::kHidden;
+  if (view.compare == Compare::kPaste) settings.mode = CloneMode::kNone;
+  if (view.compare == Compare::kInitial) settings.method = DeformMethod::kInitial;
+  if (view.compare == Compare::kPaper) settings.method = DeformMethod::kPaper;
+  if (view.compare == Compare::kFlipfree) settings.method = DeformMethod::kFlipfree;
+  return other;
+}
+
+Result<void> LiveSession::State::compare(live::Quality quality, Snapshot& made, const Watch& watch) {
+  const auto other = compared_layer();
+  if (!other) {
+    compare_picture = live::Picture();
+    return {};
+  }
+  const auto layers = session.drawn_layers(&*other, watch);
+  if (!layers) return layers.error();
+  PictureUpdate changed;
+  auto painted = compare_picture.paint(made.target.pixels, *layers, quality, watch, changed);
+  if (!painted) return painted;
+  const Rect rect = unite(picture.layers_rect(), compare_picture.layers_rect());
+  if (!rect.empty())
+    made.compare =
+        ComparePicture{rect, std::make_shared<const Raster<Rgba8>>(live::part_of(compare_picture.pixels(), rect))};
+  return {};
 }
 
 void LiveSession::State::publish(Snapshot made, PictureUpdate changed) {

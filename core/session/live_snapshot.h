@@ -12,8 +12,10 @@ public:
   /// @param measured  whether metrics are wanted that are not known yet; a gesture goes without.
   Snapshot make(Session& session, bool measured, const Watch& watch);
 
-private:
+  /// The image in 8 bits; the same content gives the same pixels as long as it is kept.
   ShownPicture show(const Image& image);
+
+private:
   std::shared_ptr<const Raster<Rgba8>> thumbnail_of(const Layer& layer);
   std::optional<Metrics> measure(Session& session, const Layer& layer, bool wanted, const Watch& watch);
 

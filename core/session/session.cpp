@@ -10,13 +10,6 @@
 
 namespace oversketch {
 
-/// A deformed region in the target's pixels, before the whole-pixel shift.
-struct Session::Shape {
-  Mask mask;
-  WarpedRegion warped;
-  std::shared_ptr<const CloneSystem> system;
-};
-
 /// How one layer's region is deformed: its inputs, and the solve it starts from.
 struct Session::Solve {
   Layer layer;
@@ -33,7 +26,7 @@ struct Session::Caches {
   // About 100 kB each.
   ContentCache<Deformation> solutions{256};
   ContentCache<Deformation> deformations{64};
-  ContentCache<Shape> shapes{6};
+  ContentCache<LayerShape> shapes{6};
   ContentCache<Image> composites{6};
 };
 
@@ -239,6 +232,18 @@ Result<std::shared_ptr<const Deformation>> Session::deformation(LayerId id, cons
   return run(solve_of(*layer), watch);
 }
 
+Result<std::vector<Deformation>> Session::alternatives(LayerId id, int count, const Watch& watch) {
+  const Layer* layer = shown().find(id);
+  if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
+  if (layer->outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(*layer)};
+  const auto system = system_of(*layer, watch);
+  if (!system) return system.error();
+  auto solved =
+      (*system)->alternatives(layer->sketch, pin_pairs(*layer), deform_options(*layer), count, counters_.deform, watch);
+  if (!solved) return at(place_of(*layer), solved.error());
+  return solved;
+}
+
 std::optional<Hash> Session::deformation_name(LayerId id) const {
   const auto& solves = shown_solves();
   const auto found = solves.find(id);
@@ -256,14 +261,13 @@ Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
   return measure(placed, ClosedCurve(layer.sketch_in_target()), {});
 }
 
-Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& layer, const Watch& watch) {
-  const Solve& solve = solve_of(layer);
+Result<std::shared_ptr<const LayerShape>> Session::shape_of(const Layer& layer, const Solve& solve, bool needs_system,
+                                                            const Watch& watch) {
   const Hash key = shape_key(layer, solve.deformation);
   auto shape = caches_->shapes.find(key);
-  const bool needs_system = layer.settings.mode != CloneMode::kNone;
   if (shape && (shape->system || !needs_system || shape->mask.empty())) return shape;
 
-  auto made = std::make_shared<Shape>();
+  auto made = std::make_shared<LayerShape>();
   if (shape) {
     *made = *shape;
   } else {
@@ -293,12 +297,12 @@ Result<std::shared_ptr<const Session::Shape>> Session::shape_of(const Layer& lay
 }
 
 Result<Image> Session::blend(const Layer& layer, const Image& below, const Watch& watch) {
-  const auto shape = shape_of(layer, watch);
+  const auto shape = shape_of(layer, solve_of(layer), layer.settings.mode != CloneMode::kNone, watch);
   if (!shape) return shape.error();
   if ((*shape)->mask.empty()) return below;
   StageTimer timer(watch.times, "blend");
   Raster<Rgba> pixels = below.pixels();
-  const Shape& s = **shape;
+  const LayerShape& s = **shape;
   const auto [dx, dy] = std::pair(layer.placement.dx, layer.placement.dy);
   const auto report =
       layer.settings.mode == CloneMode::kNone
@@ -337,6 +341,23 @@ Result<Image> Session::composite_until(const Document& document, std::size_t cou
   return picture;
 }
 
+Result<std::vector<DrawnLayer>> Session::drawn_layers(const Layer* otherwise, const Watch& watch) {
+  // All of them, and as many again for what a gesture makes of them.
+  caches_->shapes.grow(2 * shown().layers.size());
+  std::vector<DrawnLayer> drawn;
+  for (const Layer& own : shown().layers) {
+    const bool other = otherwise != nullptr && otherwise->id == own.id;
+    const Layer& layer = other ? *otherwise : own;
+    if (!is_drawn(layer)) continue;
+    const auto solve = other ? plan_layer(layer, nullptr, true) : shown_solves().at(layer.id);
+    auto shape = shape_of(layer, *solve, true, watch);
+    if (!shape) return shape.error();
+    drawn.push_back({layer.id, std::move(*shape), shape_key(layer, solve->deformation), layer.placement.dx,
+                     layer.placement.dy, blend_options(layer)});
+  }
+  return drawn;
+}
+
 Result<Image> Session::composite(const Watch& watch) {
   return composite_until(shown(), shown().layers.size(), watch);
 }
@@ -352,7 +373,7 @@ Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
   if (!picture) return picture.error();
   Raster<Rgba> alone(picture->width(), picture->height(), {0, 0, 0, 0});
   if (is_drawn(shown.layers[index])) {
-    const auto shape = shape_of(shown.layers[index], watch);
+    const auto shape = shape_of(shown.layers[index], solve_of(shown.layers[index]), false, watch);
     if (!shape) return shape.error();
     const Mask placed = translated((*shape)->mask, layer->placement.dx, layer->placement.dy);
     for (const Mask::Run& run : placed.runs()) {

@@ -4,6 +4,7 @@
 #include "core/base/watch.h"
 #include "core/deform/deformation.h"
 #include "core/document/history.h"
+#include "core/session/drawn_layer.h"
 #include "core/session/script.h"
 
 #include <cstdint>
@@ -86,6 +87,10 @@ public:
   /// Its distortion; lengths in target pixels.
   Result<Metrics> metrics(LayerId id, const Watch& watch = {});
 
+  /// The best match of a flip-free layer's curves, solved from nothing, and up to `count` − 1 runners-up.
+  /// @errors as deformation().
+  Result<std::vector<Deformation>> alternatives(LayerId id, int count, const Watch& watch = {});
+
   /// The target with all visible layers blended in, lowest first.
   /// @errors document.none, those of warp and clone with the layer as the place, cancelled.
   Result<Image> composite(const Watch& watch = {});
@@ -94,9 +99,13 @@ public:
   /// target's size.
   Result<Image> layer_picture(LayerId id, const Watch& watch = {});
 
+  /// What composite() is painted from, lowest first, for who paints it otherwise; every system is there.
+  /// @param otherwise  a layer to be taken with other settings, for comparison; may be null.
+  /// @errors those of the solvers and of warp with the layer as the place, cancelled.
+  Result<std::vector<DrawnLayer>> drawn_layers(const Layer* otherwise = nullptr, const Watch& watch = {});
+
 private:
   struct Caches;
-  struct Shape;
   struct Solve;
   /// How each layer of a history entry is solved.
   using Solves = std::map<LayerId, std::shared_ptr<const Solve>>;
@@ -119,7 +128,8 @@ private:
   const Solve& solve_of(const Layer& layer) const;
   Result<std::shared_ptr<const DeformSystem>> system_of(const Layer& layer, const Watch& watch);
   Result<std::shared_ptr<const Deformation>> run(const Solve& solve, const Watch& watch);
-  Result<std::shared_ptr<const Shape>> shape_of(const Layer& layer, const Watch& watch);
+  Result<std::shared_ptr<const LayerShape>> shape_of(const Layer& layer, const Solve& solve, bool needs_system,
+                                                     const Watch& watch);
   Result<Image> blend(const Layer& layer, const Image& below, const Watch& watch);
   /// The picture up to and including the layer of that index.
   Result<Image> composite_until(const Document& document, std::size_t count, const Watch& watch);

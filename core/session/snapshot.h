@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/deform/deformation.h"
+#include "core/document/command.h"
 #include "core/document/document.h"
 #include "core/image/display.h"
 #include "core/session/session.h"
@@ -40,11 +41,12 @@ struct ComparePicture {
   std::shared_ptr<const Raster<Rgba8>> pixels;
 };
 
-/// One of the matcher's answers to where the curves begin, the best first.
+/// Another of the matcher's answers to where the curves begin, solved.
 struct AlternativeSnapshot {
-  /// What `layer.set` takes as `alternative`.
-  int index = 0;
+  /// What takes it: a pin at the point that tells it best from the answer that is shown.
+  PinAdd take;
   double match_cost = 0;
+  /// The deformed region, small, transparent outside.
   std::shared_ptr<const Raster<Rgba8>> picture;
 };
 
@@ -69,7 +71,8 @@ struct Snapshot {
   std::uint64_t problem_number = 0;
 
   std::optional<ComparePicture> compare;
-  /// Of the selected layer, when they were asked for and are close calls.
+  /// Of the selected layer, when they were asked for: the answers that are nearly as good as the one shown.  None
+  /// where pins decide.
   std::vector<AlternativeSnapshot> alternatives;
 
   const LayerSnapshot* find(LayerId id) const;
