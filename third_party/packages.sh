@@ -3,7 +3,7 @@
 # Tools are looked for by command, so that one from elsewhere than the system's packages is as good: COMMAND=PACKAGE.
 build_tools=(c++=g++ cmake=cmake ninja=ninja-build pkg-config=pkg-config)
 build_packages=(libeigen3-dev nlohmann-json3-dev libcli11-dev libspng-dev libjpeg-dev libexif-dev libstb-dev
-  libxxhash-dev libimgui-dev libglfw3-dev libepoxy-dev)
+  libxxhash-dev libzip-dev libpugixml-dev libimgui-dev libglfw3-dev libepoxy-dev)
 test_packages=(libgtest-dev)
 
 # Prints those of the packages $@ that dpkg does not have installed.  One dpkg-query, no apt: this runs at every start.

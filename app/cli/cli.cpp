@@ -76,6 +76,7 @@ Cli::Cli()
               "oversketch-cli SUBCOMMAND --help has an example of each.");
   add_run(*this);
   add_render(*this);
+  add_info(*this);
   add_deform(*this);
   add_evaluate(*this);
   add_clone(*this);

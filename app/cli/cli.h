@@ -41,6 +41,7 @@ private:
 // One file each.
 void add_run(Cli& cli);
 void add_render(Cli& cli);
+void add_info(Cli& cli);
 void add_deform(Cli& cli);
 void add_evaluate(Cli& cli);
 void add_clone(Cli& cli);

@@ -2,8 +2,10 @@
 
 #include "core/base/file.h"
 #include "core/image/image_io.h"
-#include "core/session/runner.h"
+#include "core/io/project.h"
+#include "core/io/runner.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -11,32 +13,46 @@ namespace oversketch::cli {
 namespace {
 
 struct Options {
-  std::string script, out;
+  std::string source, out;
   int depth = 8;
 };
 
+Result<Session> open_project(const std::string& path, const Watch& watch) {
+  auto loaded = load_project(path, {}, watch);
+  if (!loaded) return loaded.error();
+  if (!loaded->message.empty()) std::fprintf(stderr, "oversketch-cli: %s: %s\n", path.c_str(), loaded->message.c_str());
+  return std::move(loaded->session);
+}
+
 /// The script's last state: its commands, undo and redo, without what it writes or expects.
-Result<Json> render(const Options& options, const Watch& watch) {
-  const std::filesystem::path script(options.script);
+Result<Session> replay(const std::string& path, const Watch& watch) {
+  const std::filesystem::path script(path);
   const auto text = read_text_file(script);
   if (!text) return text.error();
-  auto lines = parse_script(*text, options.script);
+  auto lines = parse_script(*text, path);
   if (!lines) return lines.error();
   std::erase_if(*lines, [](const ScriptLine& line) {
     return !std::holds_alternative<Command>(line.step) && !std::holds_alternative<UndoStep>(line.step) &&
            !std::holds_alternative<RedoStep>(line.step) && !std::holds_alternative<OpenStep>(line.step);
   });
   Session session;
-  const auto done = run_script(session, *lines, options.script, {script.parent_path(), script.parent_path()}, watch);
+  const auto done = run_script(session, *lines, path, {script.parent_path(), script.parent_path()}, watch);
   if (!done) return done.error();
-  const auto picture = session.composite(watch);
+  return session;
+}
+
+Result<Json> render(const Options& options, const Watch& watch) {
+  const bool is_project = std::filesystem::path(options.source).extension() == ".ora";
+  auto session = is_project ? open_project(options.source, watch) : replay(options.source, watch);
+  if (!session) return session.error();
+  const auto picture = session->composite(watch);
   if (!picture) return picture.error();
   if (auto saved = save_image(*picture, options.out, options.depth == 16 ? BitDepth::k16 : BitDepth::k8); !saved)
     return saved.error();
   Json report;
   report["width"] = picture->width();
   report["height"] = picture->height();
-  report["layers"] = session.document().layers.size();
+  report["layers"] = session->document().layers.size();
   return report;
 }
 
@@ -44,9 +60,11 @@ Result<Json> render(const Options& options, const Watch& watch) {
 
 void add_render(Cli& cli) {
   const auto options = std::make_shared<Options>();
-  CLI::App* sub = cli.add("render", "Write the picture of a script's last state.",
-                          "render work.jsonl --out picture.png --depth 16");
-  sub->add_option("script", options->script, "the script, JSON Lines")->required()->type_name("SCRIPT.jsonl");
+  CLI::App* sub = cli.add("render", "Write the picture of a project, or of a script's last state.",
+                          "render work.ora --out picture.png --depth 16");
+  sub->add_option("project", options->source, "the project, or a script (JSON Lines)")
+      ->required()
+      ->type_name("PROJECT.ora|SCRIPT.jsonl");
   sub->add_option("--out", options->out, "PNG or JPEG, by its extension")->required()->type_name("PICTURE");
   sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")
       ->check(CLI::IsMember({8, 16}))

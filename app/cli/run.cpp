@@ -1,6 +1,6 @@
 #include "app/cli/cli.h"
 
-#include "core/session/runner.h"
+#include "core/io/runner.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "core/base/file.h"
-#include <algorithm>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -108,9 +108,16 @@ public:
 
   /// 0 or the system's error, as below.
   int error() const { return error_; }
-  int fill(std::span<const std::byte> bytes, const struct stat* old) {
+  int fill(std::span<const std::byte> bytes, const struct stat* old, const Watch& watch = {}) {
     if (old != nullptr && ::fchmod(file_.number(), old->st_mode & 07777) != 0) return errno;
-    if (const int error = write_all(file_.number(), bytes)) return error;
+    constexpr std::size_t kPiece = 4 << 20;
+    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+      if (watch.stopped()) return ECANCELED;
+      watch.report(static_cast<double>(at) / static_cast<double>(bytes.size()), "writing");
+      if (const int error = write_all(file_.number(), bytes.subspan(at, std::min(kPiece, bytes.size() - at))))
+        return error;
+    }
+    if (watch.stopped()) return ECANCELED;
     if (::fsync(file_.number()) != 0) return errno;
     return file_.close();
   }
@@ -145,7 +152,36 @@ int write_in_place(const fs::path& path, std::span<const std::byte> bytes) {
   return file.close();
 }
 
-int replace(const fs::path& path, std::span<const std::byte> bytes) {
+/// A second name for the file, at a fresh name beside it; 0 or the system's error.
+int link_beside(const fs::path& path, const fs::path& folder, fs::path& link) {
+  int error = EEXIST;
+  for (int attempt = 0; attempt < 100 && error == EEXIST; ++attempt) {
+    link = fresh_name(folder, attempt);
+    error = ::link(path.c_str(), link.c_str()) == 0 ? 0 : errno;
+  }
+  return error;
+}
+
+/// Gives the file the name NAME~ besides its own.
+int keep_previous(const fs::path& path, const fs::path& folder, const struct stat& old) {
+  const fs::path backup = path.string() + "~";
+  fs::path link;
+  if (link_beside(path, folder, link) == 0) {
+    const int error = ::rename(link.c_str(), backup.c_str()) == 0 ? 0 : errno;
+    // Where both are the same file already, renaming does nothing.
+    ::unlink(link.c_str());
+    return error;
+  }
+  // A file system without links.
+  const auto bytes = read_all<std::vector<std::byte>>(path, static_cast<std::uintmax_t>(old.st_size));
+  if (!bytes) return EIO;
+  TemporaryFile copy(folder);
+  if (copy.error() != 0) return copy.error();
+  if (const int error = copy.fill(*bytes, &old)) return error;
+  return copy.take_place_of(backup);
+}
+
+int replace(const fs::path& path, std::span<const std::byte> bytes, const WriteOptions& options) {
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) return EISDIR;
@@ -155,7 +191,9 @@ int replace(const fs::path& path, std::span<const std::byte> bytes) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   TemporaryFile temporary(folder);
   if (temporary.error() != 0) return temporary.error();
-  if (const int error = temporary.fill(bytes, exists ? &old : nullptr)) return error;
+  if (const int error = temporary.fill(bytes, exists ? &old : nullptr, options.watch)) return error;
+  if (exists && options.keep_previous)
+    if (const int error = keep_previous(path, folder, old)) return error;
   if (const int error = temporary.take_place_of(path)) return error;
   // The new name itself is synced with the folder.  Some file systems cannot; the file is whole there either way.
   const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -190,6 +228,10 @@ bool lies_below(const fs::path& folder, const fs::path& path) {
 }
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  return write_file(path, bytes, WriteOptions{});
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes, const WriteOptions& options) {
   std::error_code ignored;
   fs::path real = path;
   if (fs::is_symlink(path, ignored)) {
@@ -197,8 +239,9 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
     real = fs::weakly_canonical(path, broken);
     if (broken) return Error{"file.write", "the file cannot be written: " + broken.message(), path.string()};
   }
-  if (const int error = replace(real, bytes))
-    return Error{"file.write", "the file cannot be written: " + reason(error), path.string()};
+  const int error = replace(real, bytes, options);
+  if (error == ECANCELED) return cancelled();
+  if (error != 0) return Error{"file.write", "the file cannot be written: " + reason(error), path.string()};
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/base/watch.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -26,6 +27,16 @@ bool lies_below(const std::filesystem::path& folder, const std::filesystem::path
 /// @threads may be called from several threads, for the same path too: the last one wins whole.
 /// @errors file.write, with the system's reason; `where` is the path.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+struct WriteOptions {
+  /// The file that was there stays beside the new one under this name and "~", in place of an older one of that name.
+  /// At no moment is either name without a whole file.
+  bool keep_previous = false;
+  /// Stopped: error cancelled, the old file as it was.
+  Watch watch{};
+};
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                        const WriteOptions& options);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
 } // namespace oversketch

@@ -23,14 +23,20 @@ Result<Document> apply(const Document& document, const Command& command) {
   return changed;
 }
 
-std::vector<ImageRef*> images_to_load(Command& command) {
+std::vector<ImageRef*> images_of(Command& command) {
   std::vector<ImageRef*> refs;
   const auto ask = [&](ImageRef& ref) {
-    if (!ref.image && ref.name != kTargetName) refs.push_back(&ref);
+    if (ref.name != kTargetName) refs.push_back(&ref);
   };
   if (auto* c = std::get_if<DocumentNew>(&command); c && c->target) ask(*c->target);
   if (auto* c = std::get_if<TargetSet>(&command)) ask(c->target);
   if (auto* c = std::get_if<LayerAdd>(&command)) ask(c->source);
+  return refs;
+}
+
+std::vector<ImageRef*> images_to_load(Command& command) {
+  std::vector<ImageRef*> refs = images_of(command);
+  std::erase_if(refs, [](const ImageRef* ref) { return ref->image.has_value(); });
   return refs;
 }
 

@@ -1,6 +1,7 @@
 // The commands that change the document's pictures and its stack of layers.
 
 #include "core/document/apply_parts.h"
+#include "core/document/layer_settings.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,13 +17,6 @@ Image make_canvas(int width, int height, const Color& color) {
 const Image& loaded(const ImageRef& ref) {
   CHECK(ref.image.has_value(), "an image that was not loaded before the command was applied");
   return *ref.image;
-}
-
-template <class T>
-int assign(T& setting, const std::optional<T>& value) {
-  if (!value) return 0;
-  setting = *value;
-  return 1;
 }
 
 } // namespace
@@ -106,12 +100,7 @@ Result<void> run(Document& document, const LayerOrder& c) {
 Result<void> run(Document& document, const LayerSet& c) {
   const auto found = find_layer(document, c.layer);
   if (!found) return found.error();
-  LayerSettings& s = (*found)->settings;
-  const int given = assign(s.method, c.method) + assign(s.cell_px, c.cell_px) + assign(s.stiffness, c.stiffness) +
-                    assign(s.follow, c.follow) + assign(s.handle_weight, c.handle_weight) +
-                    assign(s.iterations, c.iterations) + assign(s.mode, c.mode) + assign(s.strength, c.strength) +
-                    assign(s.domain, c.domain) + assign(s.visible, c.visible) + assign(s.opacity, c.opacity) +
-                    assign(s.feather_px, c.feather_px);
+  const int given = assign_settings((*found)->settings, c);
   if (given == 0) return Error{"command.nothing-to-do", "\"layer.set\" needs at least one setting", ""};
   return {};
 }

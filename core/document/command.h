@@ -168,7 +168,8 @@ Result<Document> apply(const Document& document, const Command& command);
 /// What the history calls the step: "Move 40, 12", "Add layer puffer fish".
 std::string label_of(const Command& command, const Document& before, const Document& after);
 
-/// The images that a command asks for by path and that are not loaded yet ("@target" is none).
+/// The images that a command asks for by path ("@target" is none), and those of them that are not loaded yet.
+std::vector<ImageRef*> images_of(Command& command);
 std::vector<ImageRef*> images_to_load(Command& command);
 
 /// The name that stands for the target itself as a source.

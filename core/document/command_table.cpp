@@ -34,11 +34,15 @@ std::string_view label_word(const Command& command) {
   return std::visit([](const auto& c) { return Spec<std::remove_cvref_t<decltype(c)>>::label; }, command);
 }
 
-std::string print_command(const Command& command) {
+Json command_json(const Command& command) {
   Json object;
   object["do"] = name_of(command);
   std::visit([&](const auto& c) { write_record(c, object); }, command);
-  return print_json_line(object);
+  return object;
+}
+
+std::string print_command(const Command& command) {
+  return print_json_line(command_json(command));
 }
 
 std::optional<Result<Command>> read_command(const Json& object, const std::string& name) {

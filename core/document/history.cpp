@@ -126,6 +126,20 @@ Result<void> History::jump(std::size_t index) {
   return {};
 }
 
+void History::restore(std::vector<Entry> entries, std::size_t cursor) {
+  CHECK(cursor < entries.size() || (cursor == 0 && entries.empty()), "the present entry is one of the entries");
+  image_bytes_ = 0;
+  const Document none;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i].id = next_id_++;
+    entries[i].new_image_bytes = count_new_bytes(i == 0 ? none : entries[i - 1].document, entries[i].document);
+    image_bytes_ += entries[i].new_image_bytes;
+  }
+  entries_ = std::move(entries);
+  cursor_ = cursor;
+  saved_ = cursor;
+}
+
 void History::mark_saved() {
   if (!entries_.empty()) saved_ = cursor_;
 }

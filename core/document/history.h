@@ -62,6 +62,10 @@ public:
   /// @errors history.index.
   Result<void> jump(std::size_t index);
 
+  /// Takes over entries that were saved, their ids and bytes counted anew; the present one is what the file holds.
+  /// @param cursor  of an entry, 0 when there are none (CHECK).
+  void restore(std::vector<Entry> entries, std::size_t cursor);
+
   /// The present entry is what the file holds.
   void mark_saved();
   /// Whether the present document is another one than the file's, or than the one just begun.

@@ -4,10 +4,44 @@
 
 namespace oversketch {
 
+namespace {
+
+/// Deeper than any line of a script.
+constexpr int kLineDepth = 16;
+
+Error too_deep(int most_depth) {
+  return {"json.too-deep", "values lie within values more than " + std::to_string(most_depth) + " deep", ""};
+}
+
+bool opens(Json::parse_event_t event) {
+  return event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+}
+
+} // namespace
+
+Result<Json> parse_json(std::string_view text, int most_depth) {
+  bool deep = false;
+  const auto watch_depth = [&](int depth, Json::parse_event_t event, Json&) {
+    deep |= depth >= most_depth && opens(event);
+    return !deep;
+  };
+  try {
+    Json json = Json::parse(text, watch_depth);
+    if (deep) return too_deep(most_depth);
+    return json;
+  } catch (const Json::exception& problem) {
+    if (deep) return too_deep(most_depth);
+    return Error{"script.syntax", "not JSON: " + json_reason(problem).substr(0, 300), ""};
+  }
+}
+
 Result<Json> parse_json_line(std::string_view line) {
   std::set<std::string> keys;
   std::optional<std::string> repeated;
+  bool deep = false;
   const auto watch_keys = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    deep |= depth >= kLineDepth && opens(event);
+    if (deep) return false;
     if (event == Json::parse_event_t::key && depth == 1)
       if (!keys.insert(parsed.get<std::string>()).second) repeated = parsed.get<std::string>();
     return true;
@@ -22,6 +56,7 @@ Result<Json> parse_json_line(std::string_view line) {
       reason.erase(first, 11).insert(first, "at ");
     return Error{"script.syntax", "not JSON: " + reason.substr(0, 300), ""};
   }
+  if (deep) return too_deep(kLineDepth);
   if (!object.is_object()) return Error{"script.not-an-object", "a line must be an object {…}", ""};
   if (repeated) return Error{"script.repeated-key", "\"" + *repeated + "\" stands there twice", ""};
   return object;

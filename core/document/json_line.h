@@ -16,8 +16,12 @@ namespace oversketch {
 
 using Json = nlohmann::ordered_json;
 
-/// @errors script.syntax (with the column), script.not-an-object, script.repeated-key.
+/// @errors script.syntax (with the column), script.not-an-object, script.repeated-key, json.too-deep.
 Result<Json> parse_json_line(std::string_view line);
+
+/// Any JSON text with values within values at most `most_depth` deep.
+/// @errors script.syntax (with line and column), json.too-deep.
+Result<Json> parse_json(std::string_view text, int most_depth);
 
 /// The library's words for what is wrong, without its own error number.
 std::string json_reason(const Json::exception& problem);
@@ -27,6 +31,9 @@ std::string print_json_line(const Json& object);
 /// The value of "do".
 /// @errors script.no-do.
 Result<std::string> read_do(const Json& object);
+
+/// What print_command prints.
+Json command_json(const Command& command);
 
 /// The command of that name read from the object, or nothing when no command has it.
 std::optional<Result<Command>> read_command(const Json& object, const std::string& name);

@@ -54,6 +54,8 @@ Result<Decoded> decode_jpeg(std::span<const std::byte> file);
 Result<Decoded> decode_bmp(std::span<const std::byte> file);
 Result<Decoded> decode_tga(std::span<const std::byte> file);
 Result<Decoded> decode_hdr(std::span<const std::byte> file);
+/// See exact.h.
+Result<Decoded> decode_floats(std::span<const std::byte> file);
 
 /// TGA has no signature: true when every field of the header has a value that the format knows.
 bool looks_like_tga(std::span<const std::byte> file);

@@ -25,8 +25,11 @@ struct Format {
 };
 
 constexpr std::array kFormats{Format{"\x89PNG\r\n\x1a\n", decode_png, "PNG"},
-                              Format{"\xff\xd8\xff", decode_jpeg, "JPEG"}, Format{"BM", decode_bmp, "BMP"},
-                              Format{"#?RADIANCE", decode_hdr, "HDR"}, Format{"#?RGBE", decode_hdr, "HDR"}};
+                              Format{"\xff\xd8\xff", decode_jpeg, "JPEG"},
+                              Format{"BM", decode_bmp, "BMP"},
+                              Format{"#?RADIANCE", decode_hdr, "HDR"},
+                              Format{"#?RGBE", decode_hdr, "HDR"},
+                              Format{"OSFLOAT1", decode_floats, "float"}};
 
 /// Pictures that people try to open and that are not read, to tell them so by name.
 struct Foreign {

@@ -15,8 +15,8 @@ namespace oversketch {
 inline constexpr std::int64_t kMaxPixels = 200'000'000;
 
 /// Reads PNG (all kinds; 16 bits at 16 bits), JPEG (baseline and progressive, grey, colour, CMYK), BMP (uncompressed,
-/// 1, 4, 8, 16, 24 or 32 bits), TGA (all kinds of pixels) and Radiance HDR (rows from the top); what a file is, its
-/// first bytes say, not its name.
+/// 1, 4, 8, 16, 24 or 32 bits), TGA (all kinds of pixels), Radiance HDR (rows from the top), and Oversketch's own
+/// float pictures (exact.h); what a file is, its first bytes say, not its name.
 ///
 /// - The EXIF orientation (1–8) of JPEG and PNG is applied; hostile or senseless EXIF counts as none.
 /// - Values are taken as sRGB: colour profiles and PNG's gamma are not looked at.  CMYK is turned into RGB without a
@@ -43,15 +43,19 @@ Result<Image> decode_image(std::span<const std::byte> bytes);
 
 enum class BitDepth { k8, k16 };
 
+/// Whether a PNG has alpha: where a pixel needs it, or also where all are opaque.
+enum class PngAlpha { kWhereNeeded, kAlways };
+
 /// What every encoder asks of a picture.
 /// @errors image.empty, image.not-finite (a value is NaN or infinite).
 Result<void> check_exportable(const Image& image);
 
-/// Values become levels as levels.h says.  Colour is r, g, b marked as sRGB; alpha is written when any pixel's rounds
-/// to less than the highest level.
+/// Values become levels as levels.h says.  Colour is r, g, b marked as sRGB; alpha is needed when any pixel's rounds to
+/// less than the highest level.
 /// @errors those of check_exportable; image.encode (no memory).
 /// @cost about 22 ns a pixel on photographs at 8 bits, 32 at 16.
-Result<std::vector<std::byte>> encode_png(const Image& image, BitDepth depth = BitDepth::k8);
+Result<std::vector<std::byte>> encode_png(const Image& image, BitDepth depth = BitDepth::k8,
+                                          PngAlpha alpha = PngAlpha::kWhereNeeded);
 
 /// @param quality 1…100.  Alpha is dropped: composite first.
 /// Colour is kept at full resolution (4:4:4).

@@ -43,9 +43,9 @@ bool shows_through(const Image& image, int top) {
   return std::any_of(pixels.begin(), pixels.end(), [&](const Rgba& p) { return p.a < opaque; });
 }
 
-int encode(spng_ctx* context, const Image& image, BitDepth depth) {
+int encode(spng_ctx* context, const Image& image, BitDepth depth, PngAlpha wanted) {
   const bool wide = depth == BitDepth::k16;
-  const bool alpha = shows_through(image, wide ? 65535 : 255);
+  const bool alpha = wanted == PngAlpha::kAlways || shows_through(image, wide ? 65535 : 255);
   spng_ihdr header{};
   header.width = static_cast<std::uint32_t>(image.width());
   header.height = static_cast<std::uint32_t>(image.height());
@@ -64,10 +64,10 @@ int encode(spng_ctx* context, const Image& image, BitDepth depth) {
 
 } // namespace
 
-Result<std::vector<std::byte>> encode_png(const Image& image, BitDepth depth) {
+Result<std::vector<std::byte>> encode_png(const Image& image, BitDepth depth, PngAlpha alpha) {
   if (const auto checked = check_exportable(image); !checked) return checked.error();
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
-  const int code = context ? encode(context.get(), image, depth) : static_cast<int>(SPNG_EMEM);
+  const int code = context ? encode(context.get(), image, depth, alpha) : static_cast<int>(SPNG_EMEM);
   if (code) return Error{"image.encode", std::string("The PNG could not be made: ") + spng_strerror(code) + ".", ""};
   std::size_t size = 0;
   int failed = 0;

@@ -27,13 +27,13 @@ template <>
 struct Spec<SaveStep> {
   static constexpr std::string_view name = "save", label = "Save";
   static constexpr std::string_view help =
-      "Writes the session as a script (.jsonl) with its pictures beside it, named by content.";
+      "Writes the session as a project (.ora), or as a script (.jsonl) with its pictures beside it, named by content.";
   static constexpr auto fields() { return std::make_tuple(Field{"path", &SaveStep::path, kOutHelp}); }
 };
 template <>
 struct Spec<OpenStep> {
   static constexpr std::string_view name = "open", label = "Open";
-  static constexpr std::string_view help = "Replaces the session by a saved one.";
+  static constexpr std::string_view help = "Replaces the session by a saved one, .ora or .jsonl.";
   static constexpr auto fields() {
     return std::make_tuple(
         Field{"path", &OpenStep::path, "looked for below the output folder, then beside the script"});

@@ -4,20 +4,12 @@
 #include "core/clone/clone_system.h"
 #include "core/session/content_cache.h"
 #include "core/session/layer_input.h"
+#include "core/session/session_solve.h"
 #include "core/warp/warp.h"
 
 #include <cmath>
 
 namespace oversketch {
-
-/// How one layer's region is deformed: its inputs, and the solve it starts from.
-struct Session::Solve {
-  Layer layer;
-  std::shared_ptr<const Solve> warm;
-  /// Names the solution, and the deformation with the drawn mesh.
-  Hash solution;
-  Hash deformation;
-};
 
 struct Session::Caches {
   // Systems are small beside their use; shapes hold a factor of about 240 bytes a pixel, composites 16.
@@ -127,18 +119,18 @@ Session::Solves Session::plan(const Document& after, const Command& command) con
 
 std::shared_ptr<const Session::Solve> Session::plan_layer(const Layer& layer, const std::shared_ptr<const Solve>& last,
                                                           bool anew) {
-  auto solve = std::make_shared<Solve>();
-  solve->layer = layer;
-  const bool same_solution = last && solution_key(last->layer) == solution_key(layer);
+  if (last && solution_key(last->layer) == solution_key(layer)) return make_solve(layer, last->warm);
   const bool flipfree = layer.settings.method == DeformMethod::kFlipfree;
-  if (same_solution)
-    solve->warm = last->warm;
-  else if (last && flipfree && !anew && solver_key(last->layer) == solver_key(layer))
-    solve->warm = last;
-  solve->solution = same_solution
-                        ? last->solution
-                        : Hasher().add(solution_key(layer)).add(solve->warm ? solve->warm->solution : Hash()).finish();
+  const bool starts_warm = last && flipfree && !anew && solver_key(last->layer) == solver_key(layer);
+  return make_solve(layer, starts_warm ? last : nullptr);
+}
+
+std::shared_ptr<const Session::Solve> Session::make_solve(Layer layer, std::shared_ptr<const Solve> warm) {
+  auto solve = std::make_shared<Solve>();
+  solve->solution = Hasher().add(solution_key(layer)).add(warm ? warm->solution : Hash()).finish();
   solve->deformation = Hasher().add(solve->solution).add(layer.settings.cell_px).finish();
+  solve->layer = std::move(layer);
+  solve->warm = std::move(warm);
   return solve;
 }
 
@@ -362,7 +354,7 @@ Result<Image> Session::composite(const Watch& watch) {
   return composite_until(shown(), shown().layers.size(), watch);
 }
 
-Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
+Result<WarpedRegion> Session::layer_pixels(LayerId id, const Watch& watch) {
   const Document& now = shown();
   const Layer* layer = now.find(id);
   if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
@@ -371,18 +363,30 @@ Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
   shown.layers[index].settings.visible = true;
   const auto picture = composite_until(shown, index + 1, watch);
   if (!picture) return picture.error();
-  Raster<Rgba> alone(picture->width(), picture->height(), {0, 0, 0, 0});
-  if (is_drawn(shown.layers[index])) {
-    const auto shape = shape_of(shown.layers[index], solve_of(shown.layers[index]), false, watch);
-    if (!shape) return shape.error();
-    const Mask placed = translated((*shape)->mask, layer->placement.dx, layer->placement.dy);
-    for (const Mask::Run& run : placed.runs()) {
-      if (run.y < 0 || run.y >= alone.height()) continue;
-      for (int x = std::max(run.x0, 0); x < std::min(run.x1, alone.width()); ++x)
-        alone.at(x, run.y) = picture->at(x, run.y);
-    }
+  if (!is_drawn(shown.layers[index])) return WarpedRegion{};
+  const auto shape = shape_of(shown.layers[index], solve_of(shown.layers[index]), false, watch);
+  if (!shape) return shape.error();
+  const Mask placed = translated((*shape)->mask, layer->placement.dx, layer->placement.dy);
+  WarpedRegion alone;
+  alone.rect = intersect(placed.bounds(), picture->rect());
+  if (alone.rect.empty()) return WarpedRegion{};
+  alone.pixels = Raster<Rgba>(alone.rect.width, alone.rect.height, {0, 0, 0, 0});
+  for (const Mask::Run& run : placed.runs()) {
+    if (run.y < alone.rect.y || run.y >= alone.rect.bottom()) continue;
+    for (int x = std::max(run.x0, alone.rect.x); x < std::min(run.x1, alone.rect.right()); ++x)
+      alone.pixels.at(x - alone.rect.x, run.y - alone.rect.y) = picture->at(x, run.y);
   }
-  return Image(std::move(alone));
+  return alone;
+}
+
+Result<Image> Session::layer_picture(LayerId id, const Watch& watch) {
+  const auto alone = layer_pixels(id, watch);
+  if (!alone) return alone.error();
+  const Rect& rect = alone->rect;
+  Raster<Rgba> whole(document().target.image.width(), document().target.image.height(), {0, 0, 0, 0});
+  for (int y = 0; y < rect.height; ++y)
+    std::copy_n(alone->pixels.row(y).begin(), rect.width, whole.row(rect.y + y).begin() + rect.x);
+  return Image(std::move(whole));
 }
 
 } // namespace oversketch

@@ -4,7 +4,9 @@
 #include "core/base/watch.h"
 #include "core/deform/deformation.h"
 #include "core/document/history.h"
+#include "core/image/warped_region.h"
 #include "core/session/drawn_layer.h"
+#include "core/session/saved_session.h"
 #include "core/session/script.h"
 
 #include <cstdint>
@@ -76,7 +78,14 @@ public:
   /// Takes over the document, history and log of another session; the counters add up.
   void adopt(Session other);
 
+  /// What a project file needs; solving it anew gives the same bits.  @cost O(steps kept); pictures are shared.
+  SavedSession saved(const KeptHistory& kept = {}) const;
+  /// The reverse: unmodified, nothing solved yet.
+  /// @errors session.inconsistent.
+  static Result<Session> restore(SavedSession saved, History::Limits limits = {});
+
   /// Every command, undo and redo since the document was begun: replaying it gives this document and this history.
+  /// After restore() of a history that had lost its beginning: since then.
   const std::vector<Step>& log() const { return log_; }
 
   /// The layer's deformed region, in its own space; apply the placement for target pixels.
@@ -95,8 +104,10 @@ public:
   /// @errors document.none, those of warp and clone with the layer as the place, cancelled.
   Result<Image> composite(const Watch& watch = {});
 
-  /// One layer as it stands in the composite of those below it: opaque where it is, transparent elsewhere, of the
-  /// target's size.
+  /// One layer as it stands in the composite of those below it: opaque where it is, transparent elsewhere; the box
+  /// round what it paints within the target, empty where that is nothing.
+  Result<WarpedRegion> layer_pixels(LayerId id, const Watch& watch = {});
+  /// The same, of the target's size.
   Result<Image> layer_picture(LayerId id, const Watch& watch = {});
 
   /// What composite() is painted from, lowest first, for who paints it otherwise; every system is there.
@@ -124,6 +135,7 @@ private:
   Solves plan(const Document& after, const Command& command) const;
   static std::shared_ptr<const Solve> plan_layer(const Layer& layer, const std::shared_ptr<const Solve>& last,
                                                  bool anew);
+  static std::shared_ptr<const Solve> make_solve(Layer layer, std::shared_ptr<const Solve> warm);
   void keep(Solves solves);
   const Solve& solve_of(const Layer& layer) const;
   Result<std::shared_ptr<const DeformSystem>> system_of(const Layer& layer, const Watch& watch);

@@ -4,8 +4,8 @@
 #include "core/image/compare.h"
 #include "core/image/image_io.h"
 #include "core/image/resample.h"
-#include "core/session/recorder.h"
-#include "core/session/runner.h"
+#include "core/io/recorder.h"
+#include "core/io/runner.h"
 
 #include "tests/support/temp_folder.h"
 

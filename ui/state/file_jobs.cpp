@@ -2,8 +2,9 @@
 
 #include "core/base/file.h"
 #include "core/image/image_io.h"
-#include "core/session/recorder.h"
-#include "core/session/runner.h"
+#include "core/io/project.h"
+#include "core/io/recorder.h"
+#include "core/io/runner.h"
 
 #include <algorithm>
 #include <cctype>
@@ -49,6 +50,13 @@ Result<OpenedFile> open_script(Session& session, const fs::path& path, const Wat
   return file;
 }
 
+Result<OpenedFile> open_project(Session& session, const fs::path& path, const Watch& watch) {
+  auto loaded = load_project(path, {}, watch);
+  if (!loaded) return loaded.error();
+  session.adopt(std::move(loaded->session));
+  return OpenedFile{loaded->read_only, loaded->message};
+}
+
 } // namespace
 
 FileKind kind_of_file(const fs::path& path) {
@@ -60,7 +68,7 @@ FileKind kind_of_file(const fs::path& path) {
 Result<OpenedFile> open_file(Session& session, const fs::path& path, const Watch& watch) {
   switch (kind_of_file(path)) {
   case FileKind::kProject:
-    return Error{"open.unsupported", "projects cannot be opened yet", path.string()};
+    return open_project(session, path, watch);
   case FileKind::kScript:
     return open_script(session, path, watch);
   case FileKind::kPicture:
@@ -93,10 +101,12 @@ Result<void> set_target(Session& session, const fs::path& path, const Watch& wat
   return session.execute(TargetSet{std::move(*picture)}, watch);
 }
 
-Result<void> save_file(Session& session, const fs::path& path, const Watch&) {
-  if (kind_of_file(path) != FileKind::kScript)
-    return Error{"save.unknown-extension", "end the name in .jsonl", path.string()};
-  if (auto saved = save_session(session, path); !saved) return saved;
+Result<void> save_file(Session& session, const fs::path& path, const Watch& watch) {
+  const FileKind kind = kind_of_file(path);
+  if (kind == FileKind::kPicture)
+    return Error{"save.unknown-extension", "end the name in .ora for a project, in .jsonl for a script", path.string()};
+  auto saved = kind == FileKind::kProject ? save_project(session, path, {}, watch) : save_session(session, path);
+  if (!saved) return saved;
   session.mark_saved();
   return {};
 }

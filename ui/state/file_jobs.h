@@ -12,7 +12,7 @@ namespace oversketch {
 // What the editor does with files, as work on a session: run on its worker, never on the window's thread.
 
 /// Of a project's name.
-inline constexpr const char* kProjectEnding = ".jsonl";
+inline constexpr const char* kProjectEnding = ".ora";
 
 enum class FileKind { kProject, kScript, kPicture };
 /// By the name's ending: .ora, .jsonl, anything else.

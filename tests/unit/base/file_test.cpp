@@ -160,5 +160,54 @@ TEST_F(FileTest, ManyWritersLeaveOneWholeFile) {
   EXPECT_EQ(names(), (std::set<std::string>{"a.txt"}));
 }
 
+TEST_F(FileTest, KeepsThePreviousFileWhereItIsAskedTo) {
+  WriteOptions keep;
+  keep.keep_previous = true;
+  const auto write = [&](const fs::path& path, std::string_view text) {
+    return write_file(path, std::as_bytes(std::span(text.data(), text.size())), keep);
+  };
+  ASSERT_TRUE(write(folder_ / "a", "first").ok());
+  EXPECT_EQ(names(), (std::set<std::string>{"a"}));
+  for (const char* text : {"second", "third"})
+    ASSERT_TRUE(write(folder_ / "a", text).ok());
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "third");
+  EXPECT_EQ(*read_text_file(folder_ / "a~"), "second");
+  // A stop between the two renames of an earlier call leaves both names to one file.
+  fs::remove(folder_ / "a~");
+  fs::create_hard_link(folder_ / "a", folder_ / "a~");
+  ASSERT_TRUE(write(folder_ / "a", "fourth").ok());
+  EXPECT_EQ(*read_text_file(folder_ / "a~"), "third");
+  // Through a link the backup lies beside the file itself.
+  fs::create_directory(folder_ / "deep");
+  fs::create_symlink(folder_ / "a", folder_ / "deep/link");
+  ASSERT_TRUE(write(folder_ / "deep/link", "fifth").ok());
+  EXPECT_EQ(*read_text_file(folder_ / "a~"), "fourth");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "deep/link"));
+  // Where the backup cannot be, nothing is changed.
+  fs::remove(folder_ / "a~");
+  fs::create_directories(folder_ / "a~/full");
+  EXPECT_EQ(write(folder_ / "a", "sixth").error().code, "file.write");
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "fifth");
+  EXPECT_EQ(names(), (std::set<std::string>{"a", "a~", "deep"}));
+}
+
+TEST_F(FileTest, StopsWhenAskedToAndLeavesTheOldFile) {
+  ASSERT_TRUE(write_file(folder_ / "a", "first").ok());
+  std::stop_source source;
+  WriteOptions options;
+  options.watch.stop = source.get_token();
+  double last = -1;
+  options.watch.progress = [&](double done, std::string_view) {
+    EXPECT_GT(done, last);
+    last = done;
+    if (done > 0.5) source.request_stop();
+  };
+  const std::vector<std::byte> bytes(20 << 20);
+  EXPECT_EQ(write_file(folder_ / "a", bytes, options).error().code, "cancelled");
+  EXPECT_GT(last, 0.5);
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "first");
+  EXPECT_EQ(names(), (std::set<std::string>{"a"}));
+}
+
 } // namespace
 } // namespace oversketch

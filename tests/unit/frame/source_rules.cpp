@@ -30,6 +30,8 @@ std::vector<Library> list_libraries() {
           {"stb_image", {"core/image/"}},
           {"stb_truetype", {"app/cli/figure_font"}},
           {"xxhash.h", {"core/base/"}},
+          {"zip.h", {"core/io/"}},
+          {"pugixml", {"core/io/"}},
           {"CLI/", {"app/"}},
           {"imgui", {"ui/", "app/gui/"}},
           {"GLFW/", {"app/gui/"}},

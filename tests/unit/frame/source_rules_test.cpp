@@ -19,6 +19,7 @@ RoomTable plan_rooms() {
       {"clone", {"base", "image", "geometry"}},
       {"document", {"base", "image", "geometry"}},
       {"session", {"base", "image", "geometry", "mesh", "deform", "warp", "clone", "document"}},
+      {"io", {"base", "image", "geometry", "mesh", "deform", "warp", "clone", "document", "session"}},
   };
 }
 

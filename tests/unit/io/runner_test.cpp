@@ -1,8 +1,8 @@
-#include "core/session/runner.h"
+#include "core/io/runner.h"
 
 #include "core/image/compare.h"
 #include "core/image/image_io.h"
-#include "core/session/recorder.h"
+#include "core/io/recorder.h"
 
 #include "tests/support/documents.h"
 #include "tests/support/temp_folder.h"
@@ -67,7 +67,7 @@ TEST_F(Runner, refuses_what_it_cannot_do) {
   EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"a.tiff\"}"), "image.unknown-extension");
   EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"a.jpg\", \"depth\": 16}"), "image.depth");
   EXPECT_EQ(refusal(body() + "{\"do\": \"export\", \"path\": \"a.png\", \"depth\": 12}"), "script.depth");
-  EXPECT_EQ(refusal(body() + "{\"do\": \"save\", \"path\": \"a.xyz\"}"), "save.needs-jsonl");
+  EXPECT_EQ(refusal(body() + "{\"do\": \"save\", \"path\": \"a.xyz\"}"), "save.unknown-kind");
   EXPECT_EQ(refusal(body() + "{\"do\": \"open\", \"path\": \"none.jsonl\"}"), "file.missing");
   EXPECT_EQ(refusal(body() + "{\"do\": \"open\", \"path\": \"target.png\"}"), "script.header");
 }

@@ -1,10 +1,11 @@
-#include "core/session/runner.h"
+#include "core/io/runner.h"
 
 #include "core/base/file.h"
 #include "core/image/compare.h"
 #include "core/image/image_io.h"
+#include "core/io/project.h"
+#include "core/io/recorder.h"
 #include "core/session/picture_loader.h"
-#include "core/session/recorder.h"
 #include "core/session/report.h"
 
 #include <nlohmann/json.hpp>
@@ -46,7 +47,12 @@ private:
   Result<void> run_step(const SaveStep& step) {
     const auto path = output_path(step.path);
     if (!path) return path.error();
-    if (auto saved = save_session(session_, *path); !saved) return saved;
+    const bool as_script = path->extension() == ".jsonl";
+    if (!as_script && path->extension() != ".ora")
+      return Error{"save.unknown-kind", "end the name in .ora for a project, in .jsonl for a script", path->string()};
+    StageTimer timer(watch_.times, "save");
+    auto saved = as_script ? save_session(session_, *path) : save_project(session_, *path, {}, watch_);
+    if (!saved) return saved;
     session_.mark_saved();
     written.push_back(*path);
     return {};
@@ -56,7 +62,11 @@ private:
     fs::path path = folders_.out / step.path;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) path = folders_.script / step.path;
-    return open_session(session_, path, watch_);
+    if (path.extension() != ".ora") return open_session(session_, path, watch_);
+    auto loaded = load_project(path, {}, watch_);
+    if (!loaded) return loaded.error();
+    session_.adopt(std::move(loaded->session));
+    return {};
   }
 
   Result<void> run_step(const ExportStep& step) {

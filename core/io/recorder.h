@@ -10,7 +10,7 @@ namespace oversketch {
 /// Writes the session's log as a script that replays to the same document and history, and the pictures it needs as PNG
 /// files beside it, each content once: FOLDER/NAME.files/HASH/picture.png for FOLDER/NAME.jsonl.
 ///
-/// @errors save.not-exact (a picture with values that neither 8 nor 16 bits hold, such as from HDR), file.write.
+/// @errors save.needs-jsonl, save.no-beginning (a session restored from a history that was cut), file.write.
 Result<void> save_session(const Session& session, const std::filesystem::path& path);
 
 /// Replaces `session` by the one in the file.  Its counters go on.

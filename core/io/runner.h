@@ -29,7 +29,7 @@ struct RunSummary {
 /// @param lines  as parse_script gives them; `name` is the script's, for errors.
 /// @errors those of the commands, of reading and writing files, and
 ///   script.path (an output path that is absolute, has "..", or leads out of the output folder), script.depth,
-///   expect.failed, open.not-a-session, save.needs-jsonl; the session stays as the last good step left it.
+///   expect.failed, open.not-a-session, save.unknown-kind; the session stays as the last good step left it.
 Result<RunSummary> run_script(Session& session, const std::vector<ScriptLine>& lines, const std::string& name,
                               const ScriptFolders& folders, const Watch& watch);
 

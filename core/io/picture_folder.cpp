@@ -1,0 +1,66 @@
+#include "core/io/picture_folder.h"
+
+#include "core/base/file.h"
+#include "core/image/exact.h"
+
+#include <nlohmann/json.hpp>
+
+namespace oversketch {
+namespace {
+
+namespace fs = std::filesystem;
+
+} // namespace
+
+std::string clean_text(const std::string& text) {
+  using Json = nlohmann::json;
+  // Printing replaces what is no UTF-8.
+  std::string clean = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  for (char& c : clean)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return clean;
+}
+
+std::string portable_name(const std::string& name) {
+  if (name == kTargetName) return name;
+  std::string file = clean_text(fs::path(name).filename().string());
+  return file == kTargetName ? "./" + file : file;
+}
+
+Result<std::string> PictureFolder::store(const ImageRef& ref) {
+  const Hash hash = ref.image->content_hash();
+  if (const auto known = stored_.find(hash); known != stored_.end()) return known->second;
+  const fs::path inside = folder_ / to_string(hash);
+  std::error_code failure;
+  if (!lies_below(root_, root_ / inside) || !lies_below(root_, root_ / folder_))
+    return Error{"file.write", "a link leads out of the session's folder", (root_ / inside).string()};
+  fs::create_directories(root_ / inside, failure);
+  if (failure) return Error{"file.write", "the folder cannot be made: " + failure.message(), (root_ / inside).string()};
+  const std::string stem = fs::path(portable_name(ref.name)).stem().string();
+  // A name is its content: what is there is the same picture.
+  for (const char* extension : {".png", ".osf"})
+    if (fs::exists(root_ / inside / (stem + extension), failure))
+      return stored_[hash] = (inside / (stem + extension)).generic_string();
+  const auto picture = encode_exact(*ref.image);
+  if (!picture) return at(ref.name, picture.error());
+  const fs::path relative = inside / (stem + std::string(picture->extension));
+  if (!lies_below(root_, root_ / relative))
+    return Error{"file.write", "a link leads out of the session's folder", (root_ / relative).string()};
+  if (auto saved = write_file(root_ / relative, std::span<const std::byte>(picture->bytes)); !saved)
+    return saved.error();
+  return stored_[hash] = relative.generic_string();
+}
+
+Result<Command> PictureFolder::keep_pictures(Command command) {
+  if (auto* add = std::get_if<LayerAdd>(&command); add && !add->name && add->source.name != kTargetName)
+    add->name = clean_text(fs::path(add->source.name).stem().string());
+  for (ImageRef* ref : images_of(command)) {
+    if (!ref->image) continue;
+    auto name = store(*ref);
+    if (!name) return name.error();
+    ref->name = *name;
+  }
+  return command;
+}
+
+} // namespace oversketch
