@@ -22,7 +22,8 @@ struct Options {
 
 std::vector<BenchGroup> all_groups() {
   std::vector<BenchGroup> groups;
-  for (auto&& part : {deform_benches(), edit_benches(), quality_benches(), paper_benches(), picture_benches()})
+  for (auto&& part :
+       {deform_benches(), edit_benches(), quality_benches(), paper_benches(), picture_benches(), membrane_benches()})
     groups.insert(groups.end(), part.begin(), part.end());
   return groups;
 }
@@ -87,10 +88,10 @@ void print_head() {
 void print_row(const BenchRow& row, const BenchSummary& s) {
   const std::string goal = row.goal ? "<= " + number(row.goal->most) + " " + name_of(row.goal->of) : "";
   const std::string where = s.items > 1 ? " (" + s.worst_item + ")" : "";
-  std::printf("%-28s %9s %9s %9s %9s  %-14s %9s  %-6s %s%s\n", std::string(row.name).c_str(), number(s.median).c_str(),
+  std::printf("%-28s %9s %9s %9s %9s  %-14s %9s  %-6s %s%s\n", row.name.c_str(), number(s.median).c_str(),
               number(s.mean).c_str(), number(s.worst).c_str(), number(s.max).c_str(), goal.c_str(),
-              row.prototype ? number(*row.prototype).c_str() : "", std::string(row.unit).c_str(),
-              std::string(row.what).c_str(), where.c_str());
+              row.prototype ? number(*row.prototype).c_str() : "", std::string(row.unit).c_str(), row.what.c_str(),
+              where.c_str());
   std::fflush(stdout);
 }
 

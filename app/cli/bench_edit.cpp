@@ -224,7 +224,9 @@ Result<void> run_similar(const BenchInput& input, BenchRecord& record) {
 
 std::vector<BenchGroup> edit_benches() {
   const auto worst = [](double most) { return BenchGoal{most, BenchStatistic::kWorst}; };
-  const auto matches = [&](std::string_view name) { return BenchRow{name, "count", "  matched anew", worst(0), {}}; };
+  const auto matches = [&](std::string_view name) {
+    return BenchRow{std::string(name), "count", "  matched anew", worst(0), {}};
+  };
   return {
       {{{"deform.oversketch", "ms", "a part of the sketch redrawn: merge and warm solve", {}, 5.5},
         matches("deform.oversketch.matches")},

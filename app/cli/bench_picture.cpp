@@ -1,45 +1,15 @@
 // Cloning and warping, in ms a picture and ns a pixel.
 
 #include "app/cli/bench_cases.h"
+#include "app/cli/bench_shapes.h"
 
 #include "core/clone/clone.h"
 #include "core/warp/warp.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace oversketch::cli {
 namespace {
-
-/// A picture with slopes, waves and grain; opaque.
-Raster<Rgba> make_picture(int width, int height, std::uint32_t seed) {
-  BenchRandom random(seed);
-  const double tilt = random.between(0.2, 0.5), wave = random.between(0.02, 0.05);
-  Raster<Rgba> picture(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double base = 0.5 + 0.15 * std::sin(wave * x + tilt) * std::cos(wave * tilt * y) + tilt * x / width - 0.25;
-      const auto level = [&](double by) { return static_cast<float>(by * base + random.between(-0.02, 0.02)); };
-      picture.at(x, y) = {level(1.0), level(0.9), level(0.8), 1};
-    }
-  return picture;
-}
-
-/// A smooth shape of about that many pixels, wholly at positive coordinates.
-Mask make_blob(double pixels) {
-  Points points;
-  for (int i = 0; i < 400; ++i) {
-    const double a = 2 * std::numbers::pi * i / 400;
-    const double r = 1 + 0.18 * std::cos(2 * a + 1) + 0.14 * std::sin(3 * a) + 0.08 * std::cos(5 * a);
-    points.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  const double scale = std::sqrt(pixels / signed_area(points));
-  const Point low = bounds(points).low;
-  for (Point& p : points)
-    p = scale * (p - low) + Point{8, 8};
-  const Point high = bounds(points).high;
-  return rasterize_polygon(points, {0, 0, static_cast<int>(high.x) + 8, static_cast<int>(high.y) + 8});
-}
 
 /// What a blend cannot go without: each pixel of source and target read, and the target written.
 void mix_pixels(Raster<Rgba>& target, const WarpedRegion& source, const Mask& mask) {

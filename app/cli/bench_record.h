@@ -36,9 +36,9 @@ struct BenchGoal {
 
 /// One line of the table.  Names are stable: other programs compare by them.
 struct BenchRow {
-  std::string_view name;
+  std::string name;
   std::string_view unit;
-  std::string_view what;
+  std::string what;
   std::optional<BenchGoal> goal = {};
   /// What the prototype of the design notes took, in the row's unit.
   std::optional<double> prototype = {};

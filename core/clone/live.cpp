@@ -8,6 +8,7 @@
 #include "core/clone/placed_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <thread>
 
@@ -44,29 +45,46 @@ struct RingValues {
   double range = 0;
 };
 
+Float4 to_float(const Channels& c) {
+  return {Float4::Lanes{static_cast<float>(c.v[0]), static_cast<float>(c.v[1]), static_cast<float>(c.v[2]), 0}};
+}
+
+/// As PlacedPair::difference.
+Float4 difference(const Rgba& source, const Rgba8& target, const BlendOptions& options) {
+  const bool monochrome = options.mode == BlendMode::kMonochrome;
+  const float weight = source.a * static_cast<float>(target.a) / 255;
+  if (options.domain == Domain::kEncoded && !monochrome) {
+    const Float4::Lanes levels{static_cast<float>(target.r), static_cast<float>(target.g), static_cast<float>(target.b),
+                               0};
+    return {weight * (levels / 255 - Float4::Lanes{source.r, source.g, source.b, 0})};
+  }
+  const Channels values = to_domain(from_display(target), options.domain);
+  return weight * to_float(values - PlacedPair::values_of(source, options.domain, monochrome));
+}
+
 RingValues ring_values(const Raster<Rgba8>& below, const Data& region, Place at, const BlendOptions& options,
                        float scale) {
   const PixelGraph& graph = region.system.graph();
-  const bool monochrome = options.mode == BlendMode::kMonochrome;
   RingValues out;
-  out.values.reserve(graph.ring.size());
-  Channels low, high;
-  for (std::size_t i = 0; i < graph.ring.size(); ++i) {
+  out.values.resize(graph.ring.size());
+  std::array<float, 3> low{}, high{};
+  const auto below_edge = [&](std::size_t i) -> const Rgba8& {
     const PixelGraph::RingEdge& edge = graph.ring[i];
-    const Rgba target =
-        from_display(below.at(clamp_to(edge.x, at.dx, below.width()), clamp_to(edge.y, at.dy, below.height())));
-    const PlacedPair::Values pair = PlacedPair::pair_of(region.ring[i], target, options.domain, monochrome);
-    const Channels d = pair.target - pair.source;
-    if (i == 0) low = high = d;
+    return below.at(clamp_to(edge.x, at.dx, below.width()), clamp_to(edge.y, at.dy, below.height()));
+  };
+  for (std::size_t i = 0; i < graph.ring.size(); ++i) {
+    // Nearly every one lies in another row, and so in memory that was not read lately.
+    constexpr std::size_t kAhead = 24;
+    if (i + kAhead < graph.ring.size()) __builtin_prefetch(&below_edge(i + kAhead));
+    const Float4 d = difference(region.ring[i], below_edge(i), options);
     for (std::size_t k = 0; k < 3; ++k) {
-      low.v[k] = std::min(low.v[k], d.v[k]);
-      high.v[k] = std::max(high.v[k], d.v[k]);
+      low[k] = i == 0 ? d[k] : std::min(low[k], d[k]);
+      high[k] = i == 0 ? d[k] : std::max(high[k], d[k]);
     }
-    out.values.push_back(
-        {scale * Float4::Lanes{static_cast<float>(d.v[0]), static_cast<float>(d.v[1]), static_cast<float>(d.v[2]), 0}});
+    out.values[i] = scale * d;
   }
   for (std::size_t k = 0; k < 3; ++k)
-    out.range = std::max(out.range, high.v[k] - low.v[k]);
+    out.range = std::max<double>(out.range, high[k] - low[k]);
   return out;
 }
 

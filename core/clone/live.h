@@ -22,7 +22,7 @@ public:
   /// @param source  must reach over the mask's bounds grown by 1.
   /// @param system  of the mask.
   /// @errors clone.source-too-small; clone.not-finite (in the mask or on its ring).
-  /// @cost 8 bytes and about 3 ns a pixel.
+  /// @cost 8 bytes and about 2 ns a pixel.
   static Result<LiveRegion> make(const WarpedRegion& source, const CloneSystem& system);
 
   struct Data;
@@ -43,7 +43,7 @@ private:
 /// @param threads  1…64 (CHECK) that paint; the same bits with any number.
 /// @errors clone.bad-option; clone.empty-target; those of the system's parts; cancelled.  Then `out` is as before.
 /// @cost a membrane's solution and the painting: 0.6, 1.5, 4.5 ms for smooth opaque shapes of 2¹⁸, 2²⁰ and 2²² pixels,
-///   imported at kDrag in the encoded domain; with other options about 10 ns a pixel more.  Mixed gradients are solved
+///   imported at kDrag in the encoded domain; with other options about 20 ns a pixel more.  Mixed gradients are solved
 ///   on every pixel.
 /// @threads one call an `out` at a time; all else may be shared.
 Result<CloneReport> clone_live(const Raster<Rgba8>& below, Raster<Rgba8>& out, const LiveRegion& region,

@@ -36,13 +36,18 @@ struct SsePainter {
     _mm_storeu_si32(out, levels);
   }
 
-  static void pixels(Rgba8* out, const LivePixel* g, const Float4* u, int count, int room) {
+  static void pack(LivePixel* to, __m128 units) {
+    const __m128 inside = _mm_min_ps(_mm_max_ps(units, _mm_set1_ps(-32768)), _mm_set1_ps(32767));
+    const __m128i whole = _mm_cvtps_epi32(inside);
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packs_epi32(whole, whole));
+  }
+
+  static void pixels(Rgba8* out, const LivePixel* g, const Float4* u, int count, int) {
     int i = 0;
     for (; i + 4 <= count; i += 4)
       store(out + i, g + i, u[i].v, u[i + 1].v, u[i + 2].v, u[i + 3].v);
     for (; i < count; ++i)
       store_one(out + i, g + i, u[i].v);
-    (void)room;
   }
 
   static void ramp(Rgba8* out, const LivePixel* g, const Float4& first, const Float4& step, int count, int room) {
@@ -105,6 +110,13 @@ struct PlainPainter {
     *out = {level(g->r, u[0]), level(g->g, u[1]), level(g->b, u[2]), level(g->a, u[3])};
   }
 
+  static void pack(LivePixel* to, const Float4::Lanes& units) {
+    const auto whole = [](float v) {
+      return static_cast<std::int16_t>(std::nearbyint(v > -32768 ? std::min(v, 32767.0F) : -32768.0F));
+    };
+    *to = {whole(units[0]), whole(units[1]), whole(units[2]), whole(units[3])};
+  }
+
   static void pixels(Rgba8* out, const LivePixel* g, const Float4* u, int count, int) {
     for (int i = 0; i < count; ++i)
       store_one(out + i, g + i, u[i]);
@@ -156,6 +168,20 @@ template <class Painter>
 }
 
 } // namespace
+
+PackedKind pack_pixels(const Rgba* from, std::size_t count, LivePixel* to) {
+  static_assert(sizeof(Rgba) == sizeof(Float4));
+  // 0 · x is 0 for a finite x and not a number otherwise.
+  Float4 zeros;
+  bool opaque = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Float4 pixel{Float4::Lanes{from[i].r, from[i].g, from[i].b, from[i].a}};
+    zeros += 0.0F * pixel;
+    PlainPainter::pack(to + i, LivePixel::kOpaque * pixel.v + 32);
+    opaque &= to[i].is_opaque();
+  }
+  return {zeros[0] + zeros[1] + zeros[2] + zeros[3] == 0, opaque};
+}
 
 void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows) {
   for (const LiveRow& row : rows)

@@ -21,6 +21,15 @@ struct LivePixel {
   bool is_opaque() const { return a >= 255 * 64 + 32; }
 };
 
+/// What a stretch of pixels holds.
+struct PackedKind {
+  bool is_finite = true;
+  bool is_opaque = true;
+};
+
+/// Rounded to 1/64 of a level and clamped to what 16 bits hold.
+PackedKind pack_pixels(const Rgba* from, std::size_t count, LivePixel* to);
+
 /// A run of the mask as far as it lies on the target.
 struct LiveRow {
   /// Its number in the mask, its row there, and how many of its pixels come before the target's left edge.

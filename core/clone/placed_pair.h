@@ -51,8 +51,9 @@ public:
     return {{grey, grey, grey, 0}};
   }
 
-  static Values pair_of(const Rgba& s, const Rgba& t, Domain domain, bool monochrome) {
-    Values out{values_of(s, domain, monochrome), to_domain(t, domain)};
+  Values at(int x, int y) const {
+    const Rgba &s = source_pixel(x, y), &t = target_pixel(x, y);
+    Values out{source_values(s), to_domain(t, domain_)};
     if (s.a == 1 && t.a == 1) return out;
     const double a = s.a, b = t.a;
     const Channels difference = out.target - out.source;
@@ -60,8 +61,6 @@ public:
     out.target = out.source + (a * b) * difference;
     return out;
   }
-
-  Values at(int x, int y) const { return pair_of(source_pixel(x, y), target_pixel(x, y), domain_, monochrome_); }
 
   Channels difference(int x, int y) const {
     const Values values = at(x, y);
