@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+
+namespace oversketch {
+
+/// The left, right, upper and lower neighbours of values that lie one after the other.
+struct GridNeighbours {
+  const float* west;
+  const float* east;
+  const float* north;
+  const float* south;
+};
+
+/// The inner loops of MaskMultigrid: on `count` floats, whose neighbours are `count` floats each.  Each float is
+/// computed by the same operations in the same order, whatever the processor: all sets give the same bits.
+struct GridKernels {
+  /// u = (b + w + e + n + s) · inverse
+  void (*relax)(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
+  /// The same with neighbours of 0.
+  void (*relax_zero)(float* u, const float* b, std::size_t count, float inverse);
+  /// r = b + (w − u) + (e − u) + (n − u) + (s − u) − extra u: accurate where u is smooth.
+  void (*residual)(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count, float extra);
+  /// u += (w + e + n + s) / 2
+  void (*add_half)(float* u, const GridNeighbours& at, std::size_t count);
+
+  /// The fastest for this processor.
+  static GridKernels choose();
+  /// The one that every processor has.
+  static GridKernels plain();
+};
+
+} // namespace oversketch

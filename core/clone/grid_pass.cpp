@@ -1,0 +1,66 @@
+#include "core/clone/grid_pass.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace oversketch {
+namespace {
+
+/// Starting a thread costs as much as this many nodes of a pass.
+constexpr int kLeastNodesPerThread = 30'000;
+
+/// Rows at which bands begin, and one past the last row at the end; bands of about as many nodes.
+std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
+  const int bands = std::clamp(level.count() / kLeastNodesPerThread, 1, std::max(1, threads));
+  std::vector<int> begin = {0};
+  for (int band = 1; band < bands; ++band) {
+    const auto node = static_cast<int>(static_cast<std::int64_t>(level.count()) * band / bands);
+    int low = begin.back(), high = level.rows();
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (level.first_in(middle) < node)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    // Neighbouring seams must not touch each other's rows.
+    if (low > begin.back() + 2 * lag + 2 && low < level.rows() - 2 * lag - 2) begin.push_back(low);
+  }
+  begin.push_back(level.rows());
+  return begin;
+}
+
+void run_band(GridRows& rows, const std::vector<RowStage>& stages, int begin, int end, bool is_first, bool is_last) {
+  const int lag = stages.back().lag;
+  for (int head = begin; head < end + lag; ++head)
+    for (const RowStage& stage : stages) {
+      const int row = head - stage.lag;
+      if (row >= begin + (is_first ? 0 : stage.lag) && row < end - (is_last ? 0 : stage.lag)) stage.run(rows, row);
+    }
+}
+
+} // namespace
+
+void run_stages(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros,
+                const std::vector<RowStage>& stages, int threads) {
+  const std::vector<int> begin = cut_bands(level, threads, stages.back().lag);
+  const std::size_t bands = begin.size() - 1;
+  const auto work = [&](std::size_t band) {
+    GridRows rows(level, values, kernels, zeros);
+    run_band(rows, stages, begin[band], begin[band + 1], band == 0, band + 1 == bands);
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t band = 1; band < bands; ++band)
+      others.emplace_back(work, band);
+    work(0);
+  }
+  for (std::size_t band = 1; band < bands; ++band) {
+    GridRows rows(level, values, kernels, zeros);
+    for (const RowStage& stage : stages)
+      for (int row = begin[band] - stage.lag; row < begin[band] + stage.lag; ++row)
+        stage.run(rows, row);
+  }
+}
+
+} // namespace oversketch

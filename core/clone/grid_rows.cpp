@@ -1,0 +1,204 @@
+#include "core/clone/grid_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace oversketch {
+namespace {
+
+constexpr std::size_t kC = kGridChannels;
+
+std::size_t at_slot(int slot) {
+  return kC * static_cast<std::size_t>(slot);
+}
+
+/// Values of a run between the order of its slots (1st, 3rd, 5th…, 2nd, 4th…) and from left to right.
+template <class Copy>
+void for_slots(int length, Copy copy) {
+  const int half = (length + 1) / 2;
+  for (int i = 0; i < length; ++i)
+    copy(at_slot((i & 1) == 0 ? i / 2 : half + i / 2), at_slot(i));
+}
+
+} // namespace
+
+std::size_t GridRows::longest_cells(const GridLevel& level) {
+  int longest = 0;
+  for (std::size_t run = 0; run + 1 < level.runs.size(); ++run)
+    longest = std::max(longest, level.runs[run + 1].first - level.runs[run].first);
+  return at_slot((longest + 1) / 2);
+}
+
+const std::vector<GridPiece>& GridRows::pieces(int row) {
+  const auto at = static_cast<std::size_t>(row) % pieces_.size();
+  if (pieces_row_[at] != row) {
+    expand_row(level_, row, pieces_[at]);
+    pieces_row_[at] = row;
+  }
+  return pieces_[at];
+}
+
+/// Calls work(slot, neighbours, floats) for stretches of one colour, a missing neighbour standing as zeros.
+template <class Work>
+void GridRows::for_cells(int row, int colour, Work work) {
+  const float* const u = values_.u;
+  for (const GridPiece& piece : pieces(row)) {
+    const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(colour)];
+    if (cells.count == 0) continue;
+    const auto pick = [&](int from, int count, bool has_west, bool has_east) {
+      const std::size_t west = at_slot(cells.west + from);
+      const GridNeighbours at{has_west ? u + west : zeros_, has_east ? u + west + kC : zeros_,
+                              cells.north >= 0 ? u + at_slot(cells.north + from) : zeros_,
+                              cells.south >= 0 ? u + at_slot(cells.south + from) : zeros_};
+      work(cells.at + from, at, at_slot(count));
+    };
+    int from = 0, to = cells.count;
+    if (cells.opens) pick(from++, 1, false, !(cells.closes && cells.count == 1));
+    if (cells.closes && from < to) --to;
+    if (from < to) pick(from, to - from, true, true);
+    if (cells.closes && to >= from && to < cells.count) pick(to, 1, true, false);
+  }
+}
+
+/// Calls work(slot, scale) for the irregular nodes of a row.
+template <class Work>
+void GridRows::for_irregular(int row, int colour, Work work) const {
+  const std::vector<GridLevel::Irregular>& list = level_.irregular[static_cast<std::size_t>(colour)];
+  const int end = level_.last_in(row);
+  auto node = std::lower_bound(list.begin(), list.end(), level_.first_in(row),
+                               [](const GridLevel::Irregular& a, int slot) { return a.slot < slot; });
+  for (; node != list.end() && node->slot < end; ++node)
+    work(at_slot(node->slot), node->scale);
+}
+
+void GridRows::relax(int row, int colour) {
+  for_cells(row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
+    kernels_.relax(values_.u + at_slot(slot), values_.b + at_slot(slot), at, count, inverse_);
+  });
+  for_irregular(row, colour, [&](std::size_t at, float scale) {
+    for (std::size_t k = 0; k < kC; ++k)
+      values_.u[at + k] *= scale;
+  });
+}
+
+void GridRows::relax_from_zero(int row, int colour) {
+  for_cells(row, colour, [&](int slot, const GridNeighbours&, std::size_t count) {
+    kernels_.relax_zero(values_.u + at_slot(slot), values_.b + at_slot(slot), count, inverse_);
+  });
+  for_irregular(row, colour, [&](std::size_t at, float scale) {
+    for (std::size_t k = 0; k < kC; ++k)
+      values_.u[at + k] *= scale;
+  });
+}
+
+void GridRows::inject(int row, const GridLevel& coarse, const float* coarse_u, float factor) {
+  if (!has_coarse_nodes(row)) return;
+  const int colour = level_.coarse_colour();
+  for (const GridPiece& piece : pieces(row)) {
+    const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(colour)];
+    std::fill_n(values_.u + at_slot(cells.at), at_slot(cells.count), 0.0f);
+  }
+  const int coarse_row = coarse.find_row((level_.y_of(row) - level_.coarse_y) >> 1);
+  if (coarse_row < 0) return;
+  int fine = level_.begin_of(row);
+  for (int run = coarse.begin_of(coarse_row); run < coarse.end_of(coarse_row); ++run) {
+    const int x = 2 * coarse.x0_of(run) + level_.coarse_x;
+    while (level_.x1_of(fine) <= x)
+      ++fine;
+    float* const to = values_.u + at_slot(level_.slot(fine, x));
+    const float* const from = coarse_u + at_slot(coarse.first_of(run));
+    for_slots(coarse.x1_of(run) - coarse.x0_of(run), [&](std::size_t slot, std::size_t i) {
+      for (std::size_t k = 0; k < kC; ++k)
+        to[i + k] = factor * from[slot + k];
+    });
+  }
+}
+
+void GridRows::correct(int row) {
+  // Of the four neighbours only those in rows with coarse nodes carry anything.
+  const bool level_ones = has_coarse_nodes(row);
+  for_cells(row, 1 - level_.coarse_colour(), [&](int slot, GridNeighbours at, std::size_t count) {
+    (level_ones ? at.north : at.west) = zeros_;
+    (level_ones ? at.south : at.east) = zeros_;
+    kernels_.add_half(values_.u + at_slot(slot), at, count);
+  });
+}
+
+const float* GridRows::residual(int row) {
+  Residual& cached = residuals_[static_cast<std::size_t>(row) % residuals_.size()];
+  if (cached.row == row) return cached.values.data();
+  const int first = level_.first_in(row), colour = level_.coarse_colour();
+  const std::size_t size = at_slot(level_.last_in(row) - first);
+  if (cached.values.size() < size) cached.values.resize(size);
+  cached.row = row;
+  float* const r = cached.values.data();
+  const float extra = level_.diagonal - 4;
+  for_cells(row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
+    const std::size_t k = at_slot(slot);
+    kernels_.residual(r + at_slot(slot - first), values_.b + k, values_.u + k, at, count, extra);
+  });
+  for_irregular(row, colour, [&](std::size_t at, float scale) {
+    const float surplus = level_.diagonal / scale - level_.diagonal;
+    for (std::size_t k = 0; k < kC; ++k)
+      r[at - at_slot(first) + k] -= surplus * values_.u[at + k];
+  });
+  return r;
+}
+
+float GridRows::largest_residual(int row) {
+  const float* const r = residual(row);
+  float largest = 0;
+  for (const GridPiece& piece : pieces(row)) {
+    const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(level_.coarse_colour())];
+    const float* const at = r + at_slot(cells.at - level_.first_in(row));
+    for (std::size_t i = 0; i < at_slot(cells.count); ++i)
+      largest = std::max(largest, std::abs(at[i]));
+  }
+  return largest;
+}
+
+/// Adds the residuals at x0, x0 + 2, … x1 of a row.
+void GridRows::add_corners(int row, int x0, int x1, std::span<float> corners) {
+  const float* const r = residual(row);
+  const int first = level_.first_in(row);
+  const auto begin = level_.runs.begin() + level_.begin_of(row), end = level_.runs.begin() + level_.end_of(row);
+  auto after = std::upper_bound(begin, end, x0, [](int x, const GridLevel::Run& run) { return x < run.x0; });
+  int run = static_cast<int>(after - level_.runs.begin());
+  if (after != begin) --run;
+  for (; run < level_.end_of(row) && level_.x0_of(run) <= x1; ++run) {
+    int from = std::max(x0, level_.x0_of(run));
+    from += (from ^ x0) & 1;
+    const int to = std::min(x1, level_.x1_of(run) - 1);
+    if (from > to) continue;
+    const float* const values = r + at_slot(level_.slot(run, from) - first);
+    float* const sums = corners.data() + at_slot((from - x0) / 2);
+    const std::size_t count = at_slot((to - from) / 2 + 1);
+    for (std::size_t i = 0; i < count; ++i)
+      sums[i] += values[i];
+  }
+}
+
+void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coarse_b) {
+  const int y = 2 * coarse.y_of(coarse_row) + level_.coarse_y, row = level_.find_row(y);
+  const float* const centre = residual(row);
+  int fine = level_.begin_of(row);
+  for (int run = coarse.begin_of(coarse_row); run < coarse.end_of(coarse_row); ++run) {
+    const int length = coarse.x1_of(run) - coarse.x0_of(run), x = 2 * coarse.x0_of(run) + level_.coarse_x;
+    while (level_.x1_of(fine) <= x)
+      ++fine;
+    corners_.assign(at_slot(length + 1), 0.0f);
+    for (const int side : {-1, 1})
+      if (const int near = row + side; near >= 0 && near < level_.rows() && level_.y_of(near) == y + side)
+        add_corners(near, x - 1, x + 2 * length - 1, corners_);
+    if (line_.size() < at_slot(length)) line_.resize(at_slot(length));
+    const float* const at = centre + at_slot(level_.slot(fine, x) - level_.first_in(row));
+    for (std::size_t i = 0; i < at_slot(length); ++i)
+      line_[i] = at[i] + 0.25f * (corners_[i] + corners_[i + kC]);
+    float* const to = coarse_b + at_slot(coarse.first_of(run));
+    for_slots(length,
+              [&](std::size_t slot, std::size_t i) { std::memcpy(to + slot, line_.data() + i, kC * sizeof(float)); });
+  }
+}
+
+} // namespace oversketch

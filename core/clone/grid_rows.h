@@ -1,0 +1,75 @@
+#pragma once
+
+#include "core/clone/grid_kernels.h"
+#include "core/clone/grid_level.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace oversketch {
+
+/// Channels that are solved at once, one after the other in memory.
+inline constexpr int kGridChannels = 3;
+
+/// The values of one grid, kGridChannels floats a slot: the unknown and the right-hand side.
+struct GridValues {
+  float* u = nullptr;
+  float* b = nullptr;
+};
+
+/// Works on single rows of a grid: what a cycle does is put together from these.  One thread uses one object.
+///
+/// `colour` is that of the nodes worked on, (x + y) & 1.  Rows are read one up and one down.
+class GridRows {
+public:
+  /// @param zeros  at least longest_cells(level) floats, all 0.
+  GridRows(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros)
+      : level_(level), values_(values), kernels_(kernels), zeros_(zeros.data()), inverse_(1 / level.diagonal) {}
+
+  static std::size_t longest_cells(const GridLevel& level);
+
+  /// Gauss-Seidel: u of one colour from the other.
+  void relax(int row, int colour);
+  /// The same where all of u is taken for 0.
+  void relax_from_zero(int row, int colour);
+  /// Writes the coarser grid's u times `factor` where its nodes are, and 0 on the other nodes of their colour in rows
+  /// that have some.  That colour's own values are lost: it is relaxed next.
+  void inject(int row, const GridLevel& coarse, const float* coarse_u, float factor);
+  /// Adds the interpolated correction to the other colour; needs what inject wrote in this row and its neighbours.
+  void correct(int row);
+  /// A row of the coarser grid's b: the residual, fully weighted (Trottenberg, Oosterlee, Schüller 2001, 2.3.3), times
+  /// 4 for its unit.  Where the colour that is not the coarse nodes' was relaxed last.
+  void restrict_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
+  /// Largest |residual| of a row, where the colour that is not the coarse nodes' was relaxed last.
+  float largest_residual(int row);
+
+private:
+  struct Residual {
+    int row = -1;
+    std::vector<float> values;
+  };
+
+  const std::vector<GridPiece>& pieces(int row);
+  /// The residual of the coarse nodes' colour, kGridChannels floats a slot of the row.
+  const float* residual(int row);
+  void add_corners(int row, int x0, int x1, std::span<float> corners);
+  bool has_coarse_nodes(int row) const { return ((level_.y_of(row) - level_.coarse_y) & 1) == 0; }
+  template <class Work>
+  void for_cells(int row, int colour, Work work);
+  template <class Work>
+  void for_irregular(int row, int colour, Work work) const;
+
+  const GridLevel& level_;
+  GridValues values_;
+  GridKernels kernels_;
+  const float* zeros_;
+  float inverse_;
+  /// Rows that a pass has looked at last, by number modulo 16.
+  std::array<std::vector<GridPiece>, 16> pieces_;
+  std::array<int, 16> pieces_row_ = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  std::array<Residual, 4> residuals_;
+  std::vector<float> line_, corners_;
+};
+
+} // namespace oversketch

@@ -1,0 +1,333 @@
+#include "core/clone/multigrid.h"
+
+#include "core/base/check.h"
+#include "core/clone/coarsest_grid.h"
+#include "core/clone/grid_level.h"
+#include "core/clone/grid_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oversketch {
+namespace {
+
+constexpr std::size_t kC = kGridChannels;
+static_assert(MultigridSolve::kChannels == kGridChannels);
+
+/// Few enough to be factored: a substitution then costs less than a cycle on them.
+constexpr int kMostFactored = 600;
+/// Of a last grid that is larger.  Then one of every four nodes in a square is missing, all over, and a sweep halves
+/// the error.
+constexpr int kLastSweeps = 4;
+
+/// Corrections this small, 0.03 levels, may be float's rounding, which does not shrink.
+constexpr double kFloor = 1e-4;
+
+} // namespace
+
+struct MaskMultigrid::Data {
+  std::vector<GridLevel> levels;
+  std::optional<CoarsestGrid> coarsest;
+  double screening = 0;
+  bool is_tricky = false;
+  std::vector<float> zeros;
+};
+
+Result<MaskMultigrid> MaskMultigrid::make(const Mask& mask, double screening, const Watch& watch) {
+  CHECK(screening >= 0, "screening is not negative");
+  if (mask.empty()) return Error{"clone.empty-mask", "The region covers no pixel: make it larger.", ""};
+  // Values are counted in ints as well.
+  if (mask.count() > std::numeric_limits<int>::max() / kGridChannels)
+    return Error{"clone.too-large", "The region has " + std::to_string(mask.count()) + " pixels: make it smaller.", ""};
+  const StageTimer timer(watch.times, "clone.grids");
+  const auto data = std::make_shared<Data>();
+  data->screening = screening;
+  GridMaking made = make_finest(mask, screening);
+  for (;;) {
+    if (watch.stopped()) return cancelled();
+    const bool is_small = made.level.count() <= kMostFactored;
+    GridMaking coarser;
+    if (!is_small) coarser = coarsen(made, screening);
+    data->levels.push_back(std::move(made.level));
+    if (is_small || coarser.level.count() == 0) break;
+    made = std::move(coarser);
+  }
+  data->is_tricky = made.is_tricky;
+  data->zeros.assign(GridRows::longest_cells(data->levels.front()), 0.0f);
+  if (data->levels.back().count() <= kMostFactored) data->coarsest.emplace(data->levels.back());
+  return MaskMultigrid(data);
+}
+
+int MaskMultigrid::unknowns() const {
+  return data_->levels.front().count();
+}
+double MaskMultigrid::screening() const {
+  return data_->screening;
+}
+int MaskMultigrid::levels() const {
+  return static_cast<int>(data_->levels.size());
+}
+
+std::int64_t MaskMultigrid::bytes() const {
+  auto bytes = static_cast<std::int64_t>(data_->zeros.capacity() * sizeof(float));
+  for (const GridLevel& level : data_->levels)
+    bytes += level.bytes();
+  return bytes + (data_->coarsest ? data_->coarsest->bytes() : 0);
+}
+
+struct MultigridSolve::State {
+  State(const MaskMultigrid& grids, int thread_count)
+      : data(grids.data_), threads(thread_count), is_tricky(data->is_tricky) {
+    std::size_t total = 0;
+    for (const GridLevel& level : data->levels)
+      total += 2 * kC * static_cast<std::size_t>(level.count());
+    floats = total;
+    memory = std::make_unique_for_overwrite<float[]>(total);
+    float* at = memory.get();
+    for (const GridLevel& level : data->levels) {
+      const std::size_t size = kC * static_cast<std::size_t>(level.count());
+      values.push_back({at, at + size});
+      at += 2 * size;
+    }
+  }
+
+  const GridLevel& level(std::size_t l) const { return data->levels[l]; }
+  std::size_t last() const { return data->levels.size() - 1; }
+
+  void run(std::size_t l, const std::vector<RowStage>& stages) {
+    run_stages(level(l), values[l], kernels, data->zeros, stages, threads);
+  }
+
+  static void add_relaxing(std::vector<RowStage>& stages, int colour, int lag, bool from_zero) {
+    if (from_zero)
+      stages.push_back({lag, [colour](GridRows& rows, int row) { rows.relax_from_zero(row, colour); }});
+    else
+      stages.push_back({lag, [colour](GridRows& rows, int row) { rows.relax(row, colour); }});
+    stages.push_back({lag + 1, [colour](GridRows& rows, int row) { rows.relax(row, 1 - colour); }});
+  }
+
+  /// Relaxes, and hands the residual down.
+  void add_down(std::vector<RowStage>& stages, std::size_t l, int lag, bool from_zero) {
+    add_relaxing(stages, level(l).coarse_colour(), lag, from_zero);
+    const GridLevel &fine = level(l), &coarse = level(l + 1);
+    float* const b = values[l + 1].b;
+    stages.push_back({lag + 3, [&fine, &coarse, b](GridRows& rows, int row) {
+                        const int y = fine.y_of(row) - fine.coarse_y;
+                        const int coarse_row = (y & 1) == 0 ? coarse.find_row(y >> 1) : -1;
+                        if (coarse_row >= 0) rows.restrict_to(coarse, coarse_row, b);
+                      }});
+  }
+
+  /// Takes the correction from below, and relaxes.
+  void add_up(std::vector<RowStage>& stages, std::size_t l, float factor = 1) {
+    const GridLevel& coarse = level(l + 1);
+    const float* const u = values[l + 1].u;
+    stages.push_back({0, [&coarse, u, factor](GridRows& rows, int row) { rows.inject(row, coarse, u, factor); }});
+    stages.push_back({1, [](GridRows& rows, int row) { rows.correct(row); }});
+    add_relaxing(stages, level(l).coarse_colour(), 2, false);
+  }
+
+  void solve_last(bool from_zero) {
+    const std::size_t l = last();
+    if (data->coarsest) {
+      data->coarsest->solve(values[l].b, values[l].u);
+      return;
+    }
+    for (int sweep = 0; sweep < kLastSweeps; ++sweep) {
+      std::vector<RowStage> stages;
+      add_relaxing(stages, level(l).coarse_colour(), 0, from_zero && sweep == 0);
+      run(l, stages);
+    }
+  }
+
+  /// One cycle on a coarse grid.
+  void cycle(std::size_t l, bool from_zero) {
+    if (l == last()) return solve_last(from_zero);
+    std::vector<RowStage> down, up;
+    add_down(down, l, 0, from_zero);
+    run(l, down);
+    visit(l + 1);
+    add_up(up, l);
+    run(l, up);
+  }
+
+  void visit(std::size_t l) {
+    cycle(l, true);
+    if (is_tricky && l != last()) cycle(l, false);
+  }
+
+  double largest_correction() const {
+    constexpr std::size_t kLanes = 8;
+    float largest[kLanes] = {};
+    const float* const u = values[1].u;
+    const std::size_t size = kC * static_cast<std::size_t>(level(1).count());
+    for (std::size_t i = 0; i < size / kLanes * kLanes; i += kLanes)
+      for (std::size_t k = 0; k < kLanes; ++k)
+        largest[k] = std::max(largest[k], std::abs(u[i + k]));
+    for (std::size_t i = size / kLanes * kLanes; i < size; ++i)
+      largest[0] = std::max(largest[0], std::abs(u[i]));
+    return *std::max_element(std::begin(largest), std::end(largest));
+  }
+
+  double largest_residual() {
+    GridRows rows(level(0), values[0], kernels, data->zeros);
+    float largest = 0;
+    for (int row = 0; row < level(0).rows(); ++row)
+      largest = std::max(largest, rows.largest_residual(row));
+    return largest;
+  }
+
+  /// Measured: 0.1–0.19 on whole regions, to 0.6 on tricky ones.
+  double usual() const { return is_tricky ? 0.5 : 0.2; }
+
+  /// Float's rounding does not shrink any more.
+  static bool is_floor(const Outcome& out, double correction) {
+    return out.cycles > 2 && out.contraction > 0.7 && correction < kFloor;
+  }
+
+  void learn(double contraction, double correction) {
+    if (correction < kFloor) return;
+    if (is_tricky && slowness == 0 && contraction > 0.4) slowness = std::min(contraction, 0.7);
+    if (contraction > 0.3) is_tricky = true;
+  }
+
+  /// What the coarse correction is multiplied by.  Where W cycles are slow it is because the coarse grids are too
+  /// stiff: part of the error shrinks by 1 − μ, 1 − slowness ≤ μ ≤ 1, a cycle.  Then the factors are the inverse roots
+  /// of the Chebyshev polynomial of degree 3 on that interval: three cycles together do best.
+  float step_factor(int cycle) const {
+    if (slowness == 0) return 1;
+    constexpr double kCosine[3] = {0.8660254037844386, 0, -0.8660254037844386};
+    return static_cast<float>(1 / (1 - slowness / 2 + slowness / 2 * kCosine[cycle % 3]));
+  }
+
+  Result<Outcome> sweep(double tolerance, int least, int most, const Watch& watch);
+  Result<Outcome> cycle_until(double tolerance, int least, int most, const Watch& watch);
+
+  std::shared_ptr<const MaskMultigrid::Data> data;
+  int threads;
+  GridKernels kernels = GridKernels::choose();
+  std::unique_ptr<float[]> memory;
+  std::size_t floats = 0;
+  std::vector<GridValues> values;
+  bool is_zero = true;
+  /// Whether coarse grids are visited twice.
+  bool is_tricky = false;
+  /// The contraction of W cycles, where that is poor; else 0.
+  double slowness = 0;
+};
+
+MultigridSolve::MultigridSolve(const MaskMultigrid& grids, int threads)
+    : state_(std::make_unique<State>(grids, threads)) {}
+MultigridSolve::~MultigridSolve() = default;
+MultigridSolve::MultigridSolve(MultigridSolve&&) noexcept = default;
+MultigridSolve& MultigridSolve::operator=(MultigridSolve&&) noexcept = default;
+
+namespace {
+
+void into_slots(const float* values, int length, float* slots) {
+  float *even = slots, *odd = slots + kC * static_cast<std::size_t>((length + 1) / 2);
+  for (int i = 0; i < length; ++i, values += kC) {
+    float*& to = (i & 1) == 0 ? even : odd;
+    for (std::size_t k = 0; k < kC; ++k)
+      to[k] = values[k];
+    to += kC;
+  }
+}
+
+} // namespace
+
+void MultigridSolve::set_side(std::size_t run, std::span<const float> values) {
+  const GridLevel& level = state_->level(0);
+  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
+  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
+  into_slots(values.data(), length, state_->values[0].b + kC * static_cast<std::size_t>(first));
+}
+
+void MultigridSolve::set_start(std::size_t run, std::span<const float> values) {
+  const GridLevel& level = state_->level(0);
+  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
+  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
+  into_slots(values.data(), length, state_->values[0].u + kC * static_cast<std::size_t>(first));
+  state_->is_zero = false;
+}
+
+void MultigridSolve::start_from_zero() {
+  state_->is_zero = true;
+}
+
+void MultigridSolve::get(std::size_t run, std::span<float> values) const {
+  const GridLevel& level = state_->level(0);
+  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
+  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
+  const float* even = state_->values[0].u + kC * static_cast<std::size_t>(first);
+  const float* odd = even + kC * static_cast<std::size_t>((length + 1) / 2);
+  float* to = values.data();
+  for (int i = 0; i < length; ++i, to += kC) {
+    const float*& from = (i & 1) == 0 ? even : odd;
+    for (std::size_t k = 0; k < kC; ++k)
+      to[k] = from[k];
+    from += kC;
+  }
+}
+
+Result<MultigridSolve::Outcome> MultigridSolve::solve(double tolerance, int least, int most, const Watch& watch) {
+  return state_->last() == 0 ? state_->sweep(tolerance, least, most, watch)
+                             : state_->cycle_until(tolerance, least, most, watch);
+}
+
+/// On one grid.
+Result<MultigridSolve::Outcome> MultigridSolve::State::sweep(double tolerance, int least, int most,
+                                                             const Watch& watch) {
+  Outcome out;
+  do {
+    if (watch.stopped()) return cancelled();
+    solve_last(is_zero);
+    is_zero = false;
+    ++out.cycles;
+    if (data->coarsest) return out;
+    // A sweep halves the error, so that it is at most twice what the next one would change.
+    out.error = largest_residual() / 2;
+  } while (out.cycles < most && (out.cycles < least || out.error > tolerance));
+  return out;
+}
+
+Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolerance, int least, int most,
+                                                                   const Watch& watch) {
+  Outcome out;
+  double before = 0;
+  std::vector<RowStage> stages;
+  add_down(stages, 0, 0, is_zero);
+  for (;;) {
+    if (watch.stopped()) return cancelled();
+    run(0, stages);
+    is_zero = false;
+    visit(1);
+    const double correction = largest_correction();
+    ++out.cycles;
+    if (before > 0) out.contraction = correction / before;
+    before = correction;
+    const float factor = step_factor(out.cycles);
+    learn(out.contraction, correction);
+    const double rho = std::clamp(std::max(out.cycles > 1 ? 1.25 * out.contraction : usual(), slowness), 0.2, 0.9);
+    out.error = correction * rho / (1 - rho);
+    const bool is_done =
+        out.cycles >= most || (out.cycles >= least && (out.error <= tolerance || is_floor(out, correction)));
+    stages.clear();
+    add_up(stages, 0, factor);
+    if (!is_done) add_down(stages, 0, 4, false);
+    if (!is_done) continue;
+    run(0, stages);
+    return out;
+  }
+}
+
+std::int64_t MultigridSolve::bytes() const {
+  return static_cast<std::int64_t>(state_->floats * sizeof(float));
+}
+
+} // namespace oversketch
