@@ -6,7 +6,8 @@ namespace {
 /// What must be added to g_p − g_q to get the difference that is kept.
 Channels surplus(const PlacedPair::Values& p, const PlacedPair::Values& q) {
   const Channels source = p.source - q.source, target = p.target - q.target;
-  return norm_squared(target) > norm_squared(source) ? target - source : Channels{};
+  const double s = norm_squared(source), t = norm_squared(target), more = t - s;
+  return more > 0 && more * more > kTie * (s + t) ? target - source : Channels{};
 }
 
 } // namespace

@@ -17,7 +17,6 @@ namespace oversketch {
 namespace {
 
 constexpr std::size_t kC = kGridChannels;
-static_assert(MultigridSolve::kChannels == kGridChannels);
 
 /// Few enough to be factored: a substitution then costs less than a cycle on them.
 constexpr int kMostFactored = 600;
@@ -205,6 +204,7 @@ struct MultigridSolve::State {
     return static_cast<float>(1 / (1 - slowness / 2 + slowness / 2 * kCosine[cycle % 3]));
   }
 
+  float* in_run(float* slots, std::size_t run, std::size_t count) const;
   Result<Outcome> sweep(double tolerance, int least, int most, const Watch& watch);
   Result<Outcome> cycle_until(double tolerance, int least, int most, const Watch& watch);
 
@@ -229,30 +229,31 @@ MultigridSolve& MultigridSolve::operator=(MultigridSolve&&) noexcept = default;
 
 namespace {
 
-void into_slots(const float* values, int length, float* slots) {
-  float *even = slots, *odd = slots + kC * static_cast<std::size_t>((length + 1) / 2);
-  for (int i = 0; i < length; ++i, values += kC) {
+void into_slots(std::span<const Float4> values, float* slots) {
+  float *even = slots, *odd = slots + kC * ((values.size() + 1) / 2);
+  for (std::size_t i = 0; i < values.size(); ++i) {
     float*& to = (i & 1) == 0 ? even : odd;
     for (std::size_t k = 0; k < kC; ++k)
-      to[k] = values[k];
+      to[k] = values[i][k];
     to += kC;
   }
 }
 
 } // namespace
 
-void MultigridSolve::set_side(std::size_t run, std::span<const float> values) {
-  const GridLevel& level = state_->level(0);
-  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
-  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
-  into_slots(values.data(), length, state_->values[0].b + kC * static_cast<std::size_t>(first));
+/// The slots of a run of the mask, whose length `count` must be.
+float* MultigridSolve::State::in_run(float* slots, std::size_t run, std::size_t count) const {
+  const std::vector<GridLevel::Run>& runs = level(0).runs;
+  CHECK(count == static_cast<std::size_t>(runs[run + 1].first - runs[run].first), "a value for each pixel of the run");
+  return slots + kC * static_cast<std::size_t>(runs[run].first);
 }
 
-void MultigridSolve::set_start(std::size_t run, std::span<const float> values) {
-  const GridLevel& level = state_->level(0);
-  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
-  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
-  into_slots(values.data(), length, state_->values[0].u + kC * static_cast<std::size_t>(first));
+void MultigridSolve::set_side(std::size_t run, std::span<const Float4> values) {
+  into_slots(values, state_->in_run(state_->values[0].b, run, values.size()));
+}
+
+void MultigridSolve::set_start(std::size_t run, std::span<const Float4> values) {
+  into_slots(values, state_->in_run(state_->values[0].u, run, values.size()));
   state_->is_zero = false;
 }
 
@@ -260,17 +261,12 @@ void MultigridSolve::start_from_zero() {
   state_->is_zero = true;
 }
 
-void MultigridSolve::get(std::size_t run, std::span<float> values) const {
-  const GridLevel& level = state_->level(0);
-  const int first = level.runs[run].first, length = level.runs[run + 1].first - first;
-  CHECK(values.size() == kC * static_cast<std::size_t>(length), "three values for each pixel of the run");
-  const float* even = state_->values[0].u + kC * static_cast<std::size_t>(first);
-  const float* odd = even + kC * static_cast<std::size_t>((length + 1) / 2);
-  float* to = values.data();
-  for (int i = 0; i < length; ++i, to += kC) {
+void MultigridSolve::get(std::size_t run, std::span<Float4> values) const {
+  const float* even = state_->in_run(state_->values[0].u, run, values.size());
+  const float* odd = even + kC * ((values.size() + 1) / 2);
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const float*& from = (i & 1) == 0 ? even : odd;
-    for (std::size_t k = 0; k < kC; ++k)
-      to[k] = from[k];
+    values[i] = {Float4::Lanes{from[0], from[1], from[2], 0}};
     from += kC;
   }
 }
@@ -312,7 +308,7 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolera
     if (before > 0) out.contraction = correction / before;
     before = correction;
     const float factor = step_factor(out.cycles);
-    learn(out.contraction, correction);
+    if (out.cycles <= 3) learn(out.contraction, correction);
     const double rho = std::clamp(std::max(out.cycles > 1 ? 1.25 * out.contraction : usual(), slowness), 0.2, 0.9);
     out.error = correction * rho / (1 - rho);
     const bool is_done =

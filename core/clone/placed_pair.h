@@ -40,6 +40,9 @@ public:
   int target_x(int x) const { return clamp_to(x, dx_, target_.width()); }
   int target_y(int y) const { return clamp_to(y, dy_, target_.height()); }
 
+  /// Whether opaque pixels are blended as they are.
+  bool is_plain() const { return domain_ == Domain::kEncoded && !monochrome_; }
+
   /// The source's colour as it is blended: in the domain, grey in mode monochrome.
   Channels source_values(const Rgba& pixel) const { return values_of(pixel, domain_, monochrome_); }
 
