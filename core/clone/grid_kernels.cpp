@@ -1,5 +1,7 @@
 #include "core/clone/grid_kernels.h"
 
+#include "core/clone/guidance.h"
+
 namespace oversketch {
 namespace {
 
@@ -33,6 +35,27 @@ OVERSKETCH_INLINE void add_half_body(float* __restrict u, const GridNeighbours& 
     u[i] += 0.5f * ((w[i] + e[i]) + (n[i] + s[i]));
 }
 
+OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict green, float* __restrict blue,
+                                    PixelPlanes p, PixelPlanes q, std::size_t count) {
+  const float *p0 = p.first, *p1 = p0 + p.stride, *p2 = p1 + p.stride, *p3 = p2 + p.stride, *p4 = p3 + p.stride,
+              *p5 = p4 + p.stride;
+  const float *q0 = q.first, *q1 = q0 + q.stride, *q2 = q1 + q.stride, *q3 = q2 + q.stride, *q4 = q3 + q.stride,
+              *q5 = q4 + q.stride;
+  constexpr float kTieFloat = static_cast<float>(kTie);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float s0 = p0[i] - q0[i], s1 = p1[i] - q1[i], s2 = p2[i] - q2[i];
+    const float t0 = p3[i] - q3[i], t1 = p4[i] - q4[i], t2 = p5[i] - q5[i];
+    const float s = (s0 * s0 + s1 * s1) + s2 * s2, t = (t0 * t0 + t1 * t1) + t2 * t2, more = t - s;
+    // Which of two noises is stronger cannot be foretold: no branch.
+    const float above = more * more - kTieFloat * (s + t);
+    const float least = above < more ? above : more;
+    const float keep = least > 0 ? 1.0f : 0.0f;
+    red[i] = keep * (t0 - s0);
+    green[i] = keep * (t1 - s1);
+    blue[i] = keep * (t2 - s2);
+  }
+}
+
 #define OVERSKETCH_KERNELS(name, target)                                                                               \
   target void relax_##name(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse) {     \
     relax_body(u, b, at, count, inverse);                                                                              \
@@ -47,7 +70,10 @@ OVERSKETCH_INLINE void add_half_body(float* __restrict u, const GridNeighbours& 
   target void add_half_##name(float* u, const GridNeighbours& at, std::size_t count) {                                 \
     add_half_body(u, at, count);                                                                                       \
   }                                                                                                                    \
-  constexpr GridKernels k_##name = {relax_##name, relax_zero_##name, residual_##name, add_half_##name};
+  target void surplus_##name(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {        \
+    surplus_body(out, out + stride, out + 2 * stride, p, q, count);                                                    \
+  }                                                                                                                    \
+  constexpr GridKernels k_##name = {relax_##name, relax_zero_##name, residual_##name, add_half_##name, surplus_##name};
 
 OVERSKETCH_KERNELS(plain, )
 #if defined(__x86_64__) && defined(__GNUC__)

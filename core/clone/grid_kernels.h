@@ -12,8 +12,15 @@ struct GridNeighbours {
   const float* south;
 };
 
-/// The inner loops of MaskMultigrid: on `count` floats, whose neighbours are `count` floats each.  Each float is
-/// computed by the same operations in the same order, whatever the processor: all sets give the same bits.
+/// Pixels one after the other in planes: the source's red, green, blue, then the target's, `stride` floats apart.
+struct PixelPlanes {
+  const float* first;
+  std::size_t stride;
+};
+
+/// The inner loops of MaskMultigrid and of mixed gradients: on `count` floats, whose neighbours are `count` floats
+/// each.  Each float is computed by the same operations in the same order, whatever the processor: all sets give the
+/// same bits.
 struct GridKernels {
   /// u = (b + w + e + n + s) · inverse
   void (*relax)(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
@@ -23,6 +30,9 @@ struct GridKernels {
   void (*residual)(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count, float extra);
   /// u += (w + e + n + s) / 2
   void (*add_half)(float* u, const GridNeighbours& at, std::size_t count);
+  /// For `count` pairs of pixels p, q: (f*_p − f*_q) − (g_p − g_q) where the target is stronger (guidance.h), else 0.
+  /// Three planes, `stride` floats apart.
+  void (*surplus)(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count);
 
   /// The fastest for this processor.
   static GridKernels choose();

@@ -1,6 +1,6 @@
 #include "core/clone/mixed_rows.h"
 
-#include "core/clone/guidance.h"
+#include "core/clone/grid_kernels.h"
 
 #include <algorithm>
 #include <array>
@@ -9,39 +9,21 @@
 namespace oversketch {
 namespace {
 
-struct PixelValues {
-  Float4 source;
-  Float4 target;
-};
-
-Float4 difference(const PixelValues& p) {
-  return p.target - p.source;
-}
-
-/// surplus() of guidance.cpp, without a branch: which of two noises is stronger cannot be foretold.
-inline Float4 surplus(const PixelValues& p, const PixelValues& q) {
-  const Float4::Lanes s = p.source.v - q.source.v, t = p.target.v - q.target.v;
-  const Float4::Lanes ss = s * s, tt = t * t, less = tt - ss, both = tt + ss;
-  const float more = (less[0] + less[1]) + less[2], sum = (both[0] + both[1]) + both[2];
-  const bool is_stronger = (more > 0) & (more * more > static_cast<float>(kTie) * sum);
-  return {(t - s) * static_cast<float>(is_stronger)};
-}
-
-/// The values of a row, for all pixels that the mask's pixels in it and in the rows beside it touch.
-class ValueRows {
+/// The planes of a row, for all pixels that the mask's pixels in it and in the rows beside it touch.
+class PlaneRows {
 public:
-  ValueRows(const PlacedPair& pair, const Mask& mask) : pair_(pair), around_(grown(mask)) {}
+  PlaneRows(const PlacedPair& pair, const Mask& mask) : pair_(pair), around_(grown(mask)) {}
 
-  /// Values from x on; the pixels from x to the end of a run of the mask next to it are there.
-  const PixelValues* at(int x, int y) {
+  /// From x on, where x and what follows to the end of a run of the mask next to it were asked for from left to right.
+  PixelPlanes at(int x, int y) {
     Row& row = rows_[static_cast<std::size_t>(y & 3)];
-    if (row.y != y || row.values.empty()) read(y, row);
+    if (row.y != y || row.stride == 0) read(y, row);
     const std::vector<Mask::Run>& runs = around_.runs();
     while (runs[row.cursor].x1 <= x) {
       row.offset += static_cast<std::size_t>(runs[row.cursor].x1 - runs[row.cursor].x0);
       ++row.cursor;
     }
-    return row.values.data() + row.offset + (x - runs[row.cursor].x0);
+    return {row.planes.data() + row.offset + (x - runs[row.cursor].x0), row.stride};
   }
 
   /// Before the runs of a row are walked again from the left.
@@ -53,36 +35,66 @@ public:
 private:
   struct Row {
     int y = 0;
-    std::vector<PixelValues> values;
+    std::vector<float> planes;
+    std::size_t stride = 0;
     std::size_t begin = 0;
-    /// The run that is being read, and the values before it.
+    /// The run that is being read, and the pixels before it.
     std::size_t cursor = 0;
     std::size_t offset = 0;
   };
 
   void read(int y, Row& row) {
     const std::vector<Mask::Run>& runs = around_.runs();
-    const auto first =
-        std::lower_bound(runs.begin(), runs.end(), y, [](const Mask::Run& run, int value) { return run.y < value; });
+    auto run = std::lower_bound(runs.begin(), runs.end(), y, [](const Mask::Run& a, int value) { return a.y < value; });
     row.y = y;
-    row.begin = row.cursor = static_cast<std::size_t>(first - runs.begin());
-    row.offset = 0;
-    row.values.clear();
-    for (auto run = first; run != runs.end() && run->y == y; ++run)
-      for (int x = run->x0; x < run->x1; ++x)
-        row.values.push_back(value(x, y));
+    row.begin = row.cursor = static_cast<std::size_t>(run - runs.begin());
+    row.offset = row.stride = 0;
+    for (auto at = run; at != runs.end() && at->y == y; ++at)
+      row.stride += static_cast<std::size_t>(at->x1 - at->x0);
+    row.planes.resize(6 * row.stride);
+    float* out = row.planes.data();
+    for (; run != runs.end() && run->y == y; out += run->x1 - run->x0, ++run)
+      if (!pair_.is_plain() || !read_opaque(*run, out, row.stride)) read_any(*run, out, row.stride);
   }
 
-  PixelValues value(int x, int y) const {
-    const Rgba &s = pair_.source_pixel(x, y), &t = pair_.target_pixel(x, y);
-    if (pair_.is_plain() && s.a == 1 && t.a == 1)
-      return {{Float4::Lanes{s.r, s.g, s.b, 0}}, {Float4::Lanes{t.r, t.g, t.b, 0}}};
-    const PlacedPair::Values values = pair_.at(x, y);
-    return {to_float(values.source), to_float(values.target)};
+  /// @returns whether all are opaque; else what was written is not meant.
+  bool read_opaque(const Mask::Run& run, float* out, std::size_t stride) const {
+    int translucent = copy(&pair_.source_pixel(run.x0, run.y), run.x1 - run.x0, out, stride);
+    float* const target = out + 3 * stride;
+    // The target's pixels follow each other but where it ends.
+    for (int x = run.x0; x < run.x1;) {
+      const int from = pair_.target_x(x), last = pair_.target_x(run.x1 - 1);
+      const bool moves = x + 1 < run.x1 && pair_.target_x(x + 1) == from + 1;
+      const int count = moves ? last - from + 1 : 1;
+      translucent += copy(&pair_.target_pixel(x, run.y), count, target + (x - run.x0), stride);
+      x += count;
+    }
+    return translucent == 0;
   }
 
-  static Float4 to_float(const Channels& c) {
-    return {Float4::Lanes{static_cast<float>(c.v[0]), static_cast<float>(c.v[1]), static_cast<float>(c.v[2]), 0}};
+  /// @returns how many are not opaque.
+  static int copy(const Rgba* from, int count, float* out, std::size_t stride) {
+    float* __restrict const red = out;
+    float* __restrict const green = out + stride;
+    float* __restrict const blue = out + 2 * stride;
+    int translucent = 0;
+    for (int i = 0; i < count; ++i) {
+      red[i] = from[i].r;
+      green[i] = from[i].g;
+      blue[i] = from[i].b;
+      translucent += from[i].a != 1.0f;
+    }
+    return translucent;
+  }
+
+  void read_any(const Mask::Run& run, float* out, std::size_t stride) const {
+    for (int x = run.x0; x < run.x1; ++x, ++out) {
+      const PlacedPair::Values values = pair_.at(x, run.y);
+      for (std::size_t k = 0; k < 3; ++k) {
+        out[k * stride] = static_cast<float>(values.source.v[k]);
+        out[(3 + k) * stride] = static_cast<float>(values.target.v[k]);
+      }
+    }
   }
 
   const PlacedPair& pair_;
@@ -90,122 +102,162 @@ private:
   std::array<Row, 4> rows_;
 };
 
-/// A row's sums, run by run from the top.
-class MixedSums {
+/// Three planes of changing length, each kept with its room.
+struct Sums {
+  std::vector<float> values;
+  std::size_t stride = 0;
+
+  void make_room(std::size_t count) {
+    if (count <= stride) return;
+    stride = count;
+    values.resize(3 * stride);
+  }
+  float* plane(std::size_t k) { return values.data() + k * stride; }
+};
+
+/// Walks along the mask's runs and those of a row beside them.
+class RowBeside {
 public:
-  MixedSums(const PlacedPair& pair, const Mask& mask) : mask_(mask), rows_(pair, mask) {}
+  RowBeside(const std::vector<Mask::Run>& runs, std::size_t begin, int y) : runs_(runs), at_(begin), y_(y) {}
 
-  /// b of a run of the mask.
-  std::span<const Float4> run(std::size_t run) {
-    const Mask::Run& here = mask_.runs()[run];
-    if (run == 0 || here.y != mask_.runs()[run - 1].y) begin_row(run);
-    const auto length = static_cast<std::size_t>(here.x1 - here.x0);
-    const PixelValues* const row = rows_.at(here.x0 - 1, here.y) + 1;
-    const PixelValues* const above = rows_.at(here.x0 - 1, here.y - 1) + 1;
-    const PixelValues* const below = rows_.at(here.x0 - 1, here.y + 1) + 1;
-    sums_.resize(length);
-    down_.resize(down_.size() + length);
-    Float4* const down = down_.data() + (down_.size() - length);
-
-    Float4 from_left = surplus(row[0], row[-1]) + difference(row[-1]);
-    for (std::size_t i = 0; i < length; ++i) {
-      const Float4 to_right = surplus(row[i], row[i + 1]);
-      down[i] = surplus(row[i], below[i]);
-      sums_[i] = from_left + to_right + down[i];
-      from_left = Float4{} - to_right;
+  /// `met(x0, x1, i)` for the parts of the run with neighbours in the mask, i the place of x0 among the row's pixels;
+  /// `open(x0, x1)` for the others.  Runs from left to right.
+  template <class Met, class Open>
+  void walk(const Mask::Run& here, Met met, Open open) {
+    int x = here.x0;
+    while (at_ < runs_.size() && runs_[at_].y == y_) {
+      const Mask::Run& run = runs_[at_];
+      if (run.x0 >= here.x1) break;
+      if (run.x1 > x) {
+        const int from = std::max(run.x0, x), to = std::min(run.x1, here.x1);
+        if (x < from) open(x, from);
+        met(from, to, before_ + static_cast<std::size_t>(from - run.x0));
+        x = to;
+        if (run.x1 > here.x1) break;
+      }
+      before_ += static_cast<std::size_t>(run.x1 - run.x0);
+      ++at_;
     }
-    sums_[length - 1] += difference(row[length]);
-    add_above(here, row, above);
-    add_below(here, below);
-    return sums_;
+    if (x < here.x1) open(x, here.x1);
   }
 
 private:
-  void begin_row(std::size_t run) {
-    std::swap(up_, down_);
-    down_.clear();
-    const std::vector<Mask::Run>& runs = mask_.runs();
-    // What stands in up_ belongs to the row before, if that is the row above.
-    above_ = above_end_ = run;
-    up_offset_ = 0;
-    if (run > 0 && runs[run - 1].y == runs[run].y - 1) above_ = row_begin_;
-    row_begin_ = run;
-    below_ = run;
-    while (below_ < runs.size() && runs[below_].y == runs[run].y)
-      ++below_;
-    rows_.rewind();
+  const std::vector<Mask::Run>& runs_;
+  std::size_t at_;
+  int y_;
+  std::size_t before_ = 0;
+};
+
+PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) {
+  return {planes.first + by, planes.stride};
+}
+
+/// Sums up b, row by row from the top.
+class MixedSides {
+public:
+  MixedSides(const PlacedPair& pair, const Mask& mask, MultigridSolve& solve)
+      : runs_(mask.runs()), solve_(solve), rows_(pair, mask) {}
+
+  /// @returns whether all is finite.
+  bool run() {
+    std::size_t above = 0;
+    for (std::size_t begin = 0; begin < runs_.size();) {
+      std::size_t end = begin, count = 0;
+      for (; end < runs_.size() && runs_[end].y == runs_[begin].y; ++end)
+        count += static_cast<std::size_t>(runs_[end].x1 - runs_[end].x0);
+      std::swap(up_, down_);
+      down_.make_room(count);
+      rows_.rewind();
+      RowBeside upper(runs_, above, runs_[begin].y - 1), lower(runs_, end, runs_[begin].y + 1);
+      std::size_t offset = 0;
+      for (std::size_t k = begin; k < end; ++k) {
+        add_run(k, offset, upper, lower);
+        offset += static_cast<std::size_t>(runs_[k].x1 - runs_[k].x0);
+      }
+      above = begin;
+      begin = end;
+    }
+    return is_finite_;
   }
 
-  /// Pairs with the pixels above: in the mask they were looked at there.
-  void add_above(const Mask::Run& here, const PixelValues* row, const PixelValues* above) {
-    const std::vector<Mask::Run>& runs = mask_.runs();
-    const auto open = [&](int from, int to) {
-      for (int x = from; x < to; ++x) {
-        const auto i = static_cast<std::size_t>(x - here.x0);
-        sums_[i] += surplus(row[i], above[i]) + difference(above[i]);
+private:
+  void add_run(std::size_t index, std::size_t offset, RowBeside& upper, RowBeside& lower) {
+    const Mask::Run& here = runs_[index];
+    const auto count = static_cast<std::size_t>(here.x1 - here.x0);
+    const PixelPlanes row = moved(rows_.at(here.x0 - 1, here.y), 1);
+    const PixelPlanes above = moved(rows_.at(here.x0 - 1, here.y - 1), 1);
+    const PixelPlanes below = moved(rows_.at(here.x0 - 1, here.y + 1), 1);
+    sums_.make_room(count);
+    along_.make_room(count + 1);
+    kernels_.surplus(along_.plane(0), along_.stride, moved(row, -1), row, count + 1);
+    kernels_.surplus(down_.plane(0) + offset, down_.stride, row, below, count);
+    for (std::size_t k = 0; k < 3; ++k) {
+      float* const sum = sums_.plane(k);
+      const float *const along = along_.plane(k), *const down = down_.plane(k) + offset;
+      for (std::size_t i = 0; i < count; ++i)
+        sum[i] = (along[i + 1] - along[i]) + down[i];
+    }
+    add_ring(row, -1, 0);
+    add_ring(row, static_cast<std::ptrdiff_t>(count), count - 1);
+    add_above(here, row, above, upper);
+    lower.walk(
+        here, [](int, int, std::size_t) {}, [&](int x0, int x1) { add_ring_row(here, below, x0, x1); });
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* const sum = sums_.plane(k);
+      int bad = 0;
+      // 0 · x is not 0 for infinite x and for not-a-number, of which differences keep something.
+      for (std::size_t i = 0; i < count; ++i)
+        bad += 0.0f * sum[i] != 0;
+      is_finite_ &= bad == 0;
+    }
+    solve_.set_side(index, sums_.plane(0), sums_.stride);
+  }
+
+  void add_above(const Mask::Run& here, PixelPlanes row, PixelPlanes above, RowBeside& upper) {
+    const auto subtract = [&](int x0, int x1, Sums& from, std::size_t at) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        float* const sum = sums_.plane(k) + (x0 - here.x0);
+        const float* const pairs = from.plane(k) + at;
+        for (int i = 0; i < x1 - x0; ++i)
+          sum[i] -= pairs[i];
       }
     };
-    int x = here.x0;
-    while (x < here.x1) {
-      if (above_ >= above_end_) return open(x, here.x1);
-      const Mask::Run& run = runs[above_];
-      if (run.x1 <= x) {
-        up_offset_ += static_cast<std::size_t>(run.x1 - run.x0);
-        ++above_;
-        continue;
-      }
-      const int from = std::clamp(run.x0, x, here.x1), to = std::min(run.x1, here.x1);
-      open(x, from);
-      for (int met = from; met < to; ++met)
-        sums_[static_cast<std::size_t>(met - here.x0)] -= up_[up_offset_ + static_cast<std::size_t>(met - run.x0)];
-      x = std::max(from, to);
-    }
+    upper.walk(
+        here, [&](int x0, int x1, std::size_t at) { subtract(x0, x1, up_, at); },
+        [&](int x0, int x1) {
+          kernels_.surplus(along_.plane(0), along_.stride, moved(above, x0 - here.x0), moved(row, x0 - here.x0),
+                           static_cast<std::size_t>(x1 - x0));
+          subtract(x0, x1, along_, 0);
+          add_ring_row(here, above, x0, x1);
+        });
   }
 
-  /// The pixels below that are outside the mask.
-  void add_below(const Mask::Run& here, const PixelValues* below) {
-    const std::vector<Mask::Run>& runs = mask_.runs();
-    const auto open = [&](int from, int to) {
-      for (int x = from; x < to; ++x)
-        sums_[static_cast<std::size_t>(x - here.x0)] += difference(below[x - here.x0]);
-    };
-    int x = here.x0;
-    while (x < here.x1) {
-      if (below_ >= runs.size() || runs[below_].y != here.y + 1) return open(x, here.x1);
-      if (runs[below_].x1 <= x) {
-        ++below_;
-        continue;
-      }
-      open(x, std::clamp(runs[below_].x0, x, here.x1));
-      x = std::min(runs[below_].x1, here.x1);
-      if (runs[below_].x0 >= here.x1) return;
-    }
+  void add_ring_row(const Mask::Run& here, PixelPlanes beside, int x0, int x1) {
+    for (int x = x0; x < x1; ++x)
+      add_ring(beside, x - here.x0, static_cast<std::size_t>(x - here.x0));
   }
 
-  const Mask& mask_;
-  ValueRows rows_;
-  std::vector<Float4> sums_;
-  /// The pairs with the pixels below, of this row so far and of the row above.
-  std::vector<Float4> down_, up_;
-  std::size_t row_begin_ = 0;
-  /// The run above and the run below that come next; where in up_ the one above begins.
-  std::size_t above_ = 0, above_end_ = 0, below_ = 0;
-  std::size_t up_offset_ = 0;
+  /// Adds d of a pixel outside the mask to its neighbour's sum.
+  void add_ring(PixelPlanes outside, std::ptrdiff_t at, std::size_t sum) {
+    const float* const source = outside.first + at;
+    for (std::size_t k = 0; k < 3; ++k)
+      sums_.plane(k)[sum] += source[(3 + k) * outside.stride] - source[k * outside.stride];
+  }
+
+  const std::vector<Mask::Run>& runs_;
+  MultigridSolve& solve_;
+  PlaneRows rows_;
+  GridKernels kernels_ = GridKernels::choose();
+  Sums sums_, along_;
+  /// The pairs of a row's pixels with those below, by place in the row: of this row, and of the row before.
+  Sums down_, up_;
+  bool is_finite_ = true;
 };
 
 } // namespace
 
 bool set_mixed_side(const PlacedPair& pair, const Mask& mask, MultigridSolve& solve) {
-  MixedSums sums(pair, mask);
-  Float4 nothing;
-  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
-    const std::span<const Float4> side = sums.run(run);
-    // 0 · x is not 0 for infinite x and for not-a-number, of which differences keep something.
-    for (const Float4& b : side)
-      nothing += 0.0f * b;
-    solve.set_side(run, side);
-  }
-  return nothing[0] == 0 && nothing[1] == 0 && nothing[2] == 0;
+  return MixedSides(pair, mask, solve).run();
 }
 
 } // namespace oversketch

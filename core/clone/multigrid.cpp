@@ -252,6 +252,19 @@ void MultigridSolve::set_side(std::size_t run, std::span<const Float4> values) {
   into_slots(values, state_->in_run(state_->values[0].b, run, values.size()));
 }
 
+void MultigridSolve::set_side(std::size_t run, const float* planes, std::size_t stride) {
+  const std::vector<GridLevel::Run>& runs = state_->level(0).runs;
+  const auto count = static_cast<std::size_t>(runs[run + 1].first - runs[run].first);
+  float* __restrict even = state_->in_run(state_->values[0].b, run, count);
+  float* __restrict odd = even + kC * ((count + 1) / 2);
+  const float *red = planes, *green = planes + stride, *blue = planes + 2 * stride;
+  for (std::size_t i = 0; i + 1 < count; i += 2, even += kC, odd += kC) {
+    even[0] = red[i], even[1] = green[i], even[2] = blue[i];
+    odd[0] = red[i + 1], odd[1] = green[i + 1], odd[2] = blue[i + 1];
+  }
+  if ((count & 1) != 0) even[0] = red[count - 1], even[1] = green[count - 1], even[2] = blue[count - 1];
+}
+
 void MultigridSolve::set_start(std::size_t run, std::span<const Float4> values) {
   into_slots(values, state_->in_run(state_->values[0].u, run, values.size()));
   state_->is_zero = false;

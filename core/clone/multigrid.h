@@ -56,6 +56,8 @@ public:
 
   /// All of b must be set before solve().
   void set_side(std::size_t run, std::span<const Float4> values);
+  /// The same from three planes, `stride` floats apart.
+  void set_side(std::size_t run, const float* planes, std::size_t stride);
   /// Where to start from: all of u, or zero.
   void set_start(std::size_t run, std::span<const Float4> values);
   void start_from_zero();
