@@ -31,6 +31,10 @@ Result<Enum> parse(std::string_view name, const std::array<std::string_view, n>&
 
 } // namespace
 
+double screening_for(double reach_px) {
+  return reach_px > 0 ? 1 / (reach_px * reach_px) : 0;
+}
+
 Result<void> check_options(const BlendOptions& options) {
   struct Range {
     const char* name;
@@ -38,9 +42,9 @@ Result<void> check_options(const BlendOptions& options) {
     double most;
   };
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const Range& range :
-       {Range{"strength", options.strength, 1.0}, Range{"opacity", options.opacity, 1.0},
-        Range{"average", options.average, 1.0}, Range{"feather_px", options.feather_px, kInfinity}}) {
+  for (const Range& range : {Range{"strength", options.strength, 1.0}, Range{"opacity", options.opacity, 1.0},
+                             Range{"average", options.average, 1.0}, Range{"feather_px", options.feather_px, kInfinity},
+                             Range{"screening", options.screening, kInfinity}}) {
     // Written so that not-a-number fails.
     if (range.value >= 0 && range.value <= range.most && range.value < kInfinity) continue;
     const std::string limits = range.most < kInfinity ? "from 0 to 1" : "0 or more";

@@ -35,11 +35,20 @@ struct BlendOptions {
   double feather_px = 0;
   /// 0…1: weight of the result against the target below.
   double opacity = 1;
+  /// λ ≥ 0, per px²: u solves Δu − λ u = … in place of Δu = ….  The correction dies away over about 1/√λ px from the
+  /// edge, so that a colour that bleeds in at one place does not tint the whole region; in exchange f does not keep g's
+  /// gradients exactly any more: ∇(f − g) = ∇u is larger near the edge, where u falls to 0 in 1/√λ px in place of a
+  /// slow passage from edge to edge.  0: the exact equation.  See screening_for().
+  double screening = 0;
   /// kAverage: weight of the source's gradients, 0…1.
   double average = 0.5;
 
   bool operator==(const BlendOptions&) const = default;
 };
+
+/// λ of a correction that dies away over `reach_px` px (by a factor of e along a straight edge); 0 for reach 0, which
+/// stands for no screening.
+double screening_for(double reach_px);
 
 /// @errors clone.bad-option: a number outside its range or not a number; `where` is its name.
 Result<void> check_options(const BlendOptions& options);

@@ -86,7 +86,7 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
 
   Correction correction;
   if (needs_solution(options)) {
-    Result<Correction> solved = solve_correction(pair, system, options.mode, quality, watch);
+    Result<Correction> solved = solve_correction(pair, system, options, quality, 1, watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
   }

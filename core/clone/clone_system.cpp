@@ -1,26 +1,36 @@
 #include "core/clone/clone_system.h"
 
 #include "core/base/check.h"
+#include "core/clone/correction.h"
 #include "core/clone/feather.h"
 #include "core/clone/lazy.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <optional>
 
 namespace oversketch {
+namespace {
+
+/// The grids of one λ, and a solve that nobody holds.
+struct Grids {
+  std::mutex making;
+  std::optional<MaskMultigrid> made;
+  std::unique_ptr<MultigridSolve> idle;
+};
+
+} // namespace
+
 struct CloneSystem::Data {
   explicit Data(const Mask& mask) : graph(mask) {}
 
   PixelGraph graph;
-  Lazy<PixelSolver> pixels;
   Lazy<std::vector<float>> depths;
   /// By quality.
   std::array<Lazy<Membrane>, 3> membranes;
-
-  Result<std::shared_ptr<const PixelSolver>> full(const Watch& watch) {
-    return pixels.get([&] { return PixelSolver::make(graph.mask, watch); });
-  }
+  std::shared_ptr<Grids> grids = std::make_shared<Grids>();
 };
 
 Result<CloneSystem> CloneSystem::make(const Mask& mask) {
@@ -57,24 +67,39 @@ bool CloneSystem::has_membrane(CloneQuality quality) const {
   return quality != CloneQuality::kExport && data_->membranes[static_cast<std::size_t>(quality)].is_made();
 }
 
-Result<void> CloneSystem::prepare(BlendMode mode, CloneQuality quality, const Watch& watch) const {
-  if (mode == BlendMode::kNone) return {};
-  if (mode != BlendMode::kMixed && quality != CloneQuality::kExport) {
-    if (const auto made = membrane(quality, watch); !made) return made.error();
-    return {};
-  }
-  if (const auto made = data_->full(watch); !made) return made.error();
+Result<void> CloneSystem::prepare(const BlendOptions& options, CloneQuality quality, const Watch& watch) const {
+  if (options.mode == BlendMode::kNone) return {};
+  const SolveWay way = choose_way(options, quality);
+  if (way.on_pixels)
+    if (const auto made = pixels(options.screening, 1, watch); !made) return made.error();
+  if (way.membrane)
+    if (const auto made = membrane(*way.membrane, watch);
+        !made && !(way.on_pixels && made.error().code == "clone.too-large"))
+      return made.error();
   return {};
 }
 
-Result<CloneSystem::Solution> CloneSystem::solve(std::span<const Channels> b, const Watch& watch) const {
-  const auto solver = data_->full(watch);
-  if (!solver) return solver.error();
-  if (watch.stopped()) return cancelled();
-  Solution out{(*solver)->solve(b), 0};
-  if (watch.stopped()) return cancelled();
-  out.error = (*solver)->error_bound(out.u, b);
-  return out;
+Result<std::shared_ptr<MultigridSolve>> CloneSystem::pixels(double screening, int threads, const Watch& watch) const {
+  const std::shared_ptr<Grids> grids = data_->grids;
+  std::unique_ptr<MultigridSolve> solve;
+  {
+    const std::scoped_lock lock(grids->making);
+    if (!grids->made || grids->made->screening() != screening) {
+      auto made = MaskMultigrid::make(mask(), screening, watch);
+      if (!made) return made.error();
+      grids->idle.reset();
+      grids->made = std::move(*made);
+    }
+    solve = std::move(grids->idle);
+    if (!solve) solve = std::make_unique<MultigridSolve>(*grids->made);
+  }
+  solve->use_threads(threads);
+  const auto give_back = [grids, screening](MultigridSolve* done) {
+    std::unique_ptr<MultigridSolve> held(done);
+    const std::scoped_lock lock(grids->making);
+    if (!grids->idle && grids->made->screening() == screening) grids->idle = std::move(held);
+  };
+  return std::shared_ptr<MultigridSolve>(solve.release(), give_back);
 }
 
 } // namespace oversketch

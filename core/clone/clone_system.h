@@ -4,11 +4,10 @@
 #include "core/base/watch.h"
 #include "core/clone/blend.h"
 #include "core/clone/membrane.h"
+#include "core/clone/multigrid.h"
 #include "core/clone/pixel_graph.h"
-#include "core/clone/pixel_solver.h"
 
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,30 +37,24 @@ public:
   const PixelGraph& graph() const;
   const Mask& mask() const { return graph().mask; }
 
-  /// Makes the parts that a blend of that mode and quality needs, so that the blend itself does not wait for them.
+  /// Makes the parts that a blend with those options and that quality needs, so that the blend does not wait for them.
   /// @errors clone.too-large, cancelled.
-  Result<void> prepare(BlendMode mode, CloneQuality quality, const Watch& watch = {}) const;
+  Result<void> prepare(const BlendOptions& options, CloneQuality quality, const Watch& watch = {}) const;
 
   /// How far from each pixel's centre the nearest centre outside the mask is, px, by pixel number.
   std::shared_ptr<const std::vector<float>> depths() const;
   /// Whether membrane() would find it made.
   bool has_membrane(CloneQuality quality) const;
 
-  /// For modes import, monochrome and average in any quality but kExport (CHECK).
+  /// For any quality but kExport (CHECK).
   /// @errors those of Membrane::make.
   Result<std::shared_ptr<const Membrane>> membrane(CloneQuality quality, const Watch& watch = {}) const;
 
-  /// A solution on every pixel of the mask.
-  struct Solution {
-    /// By pixel number.
-    std::vector<Channels> u;
-    /// A bound on |u − A⁻¹ b| in any pixel and channel, in the values of b.
-    double error = 0;
-  };
-
-  /// A u = b on the pixels, A and b as in guidance.h, whatever b is: what mixed gradients and export need.
-  /// @errors clone.too-large, cancelled.
-  Result<Solution> solve(std::span<const Channels> b, const Watch& watch = {}) const;
+  /// A solve on every pixel: what mixed gradients, screening and export need.  Whoever holds it has it alone; let go,
+  /// it is kept for the next who asks, whatever values stand in it.
+  /// @param screening  λ; grids are kept for one λ at a time.
+  /// @errors those of MaskMultigrid::make.
+  Result<std::shared_ptr<MultigridSolve>> pixels(double screening, int threads, const Watch& watch = {}) const;
 
 private:
   struct Data;

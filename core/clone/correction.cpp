@@ -1,9 +1,11 @@
 #include "core/clone/correction.h"
 
 #include "core/clone/guidance.h"
+#include "core/clone/mixed_rows.h"
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 namespace oversketch {
 namespace {
@@ -27,47 +29,119 @@ double range_of(const std::vector<Channels>& values) {
   return widest;
 }
 
+std::vector<Float4> ring_values(const PlacedPair& pair, const PixelGraph& graph, double& range) {
+  const std::vector<Channels> differences = ring_differences(pair, graph);
+  range = range_of(differences);
+  std::vector<Float4> ring(differences.size());
+  std::transform(differences.begin(), differences.end(), ring.begin(), to_float);
+  return ring;
+}
+
+/// Calls `take(run, values)` with a membrane's values run by run.
+template <class Take>
+void for_runs(const Membrane& membrane, const MembraneValues& values, const Mask& mask, Take take) {
+  std::vector<Float4> line;
+  const auto add_pixels = [&](const Float4* at, int count) { line.insert(line.end(), at, at + count); };
+  const auto add_ramp = [&](const Float4& first, const Float4& step, int count) {
+    for (int i = 0; i < count; ++i)
+      line.push_back(first + static_cast<float>(i) * step);
+  };
+  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+    line.clear();
+    membrane.walk(values, run, mask.runs()[run].y, add_pixels, add_ramp);
+    take(run, std::span<const Float4>(line));
+  }
+}
+
 Result<Correction> span_membrane(const PlacedPair& pair, const CloneSystem& system, CloneQuality quality,
                                  const Watch& watch) {
   const auto made = system.membrane(quality, watch);
   if (!made) return made.error();
   const StageTimer timer(watch.times, "clone.solve");
-  const Membrane& membrane = **made;
-  const PixelGraph& graph = system.graph();
-  const std::vector<Channels> differences = ring_differences(pair, graph);
-  std::vector<Float4> ring(differences.size());
-  std::transform(differences.begin(), differences.end(), ring.begin(), to_float);
-  const MembraneValues values = membrane.solve(ring);
+  double range = 0;
+  const MembraneValues values = (*made)->solve(ring_values(pair, system.graph(), range));
   if (watch.stopped()) return cancelled();
+  Correction out{{}, (*made)->error_share() * range};
+  out.values.reserve(static_cast<std::size_t>(system.graph().count));
+  for_runs(**made, values, system.mask(), [&](std::size_t, std::span<const Float4> line) {
+    std::transform(line.begin(), line.end(), std::back_inserter(out.values), to_channels);
+  });
+  return out;
+}
 
-  Correction out{{}, membrane.error_share() * range_of(differences)};
-  out.values.reserve(static_cast<std::size_t>(graph.count));
-  const auto add_pixels = [&](const Float4* at, int count) {
-    std::transform(at, at + count, std::back_inserter(out.values), to_channels);
-  };
-  const auto add_ramp = [&](const Float4& first, const Float4& step, int count) {
-    for (int i = 0; i < count; ++i)
-      out.values.push_back(to_channels(first + static_cast<float>(i) * step));
-  };
+/// b of u harmonic: the ring's values beside each pixel.
+void set_membrane_side(const std::vector<Float4>& ring, const PixelGraph& graph, MultigridSolve& solve) {
+  std::vector<Float4> line;
+  std::size_t edge = 0;
   const std::vector<Mask::Run>& runs = graph.mask.runs();
-  for (std::size_t run = 0; run < runs.size(); ++run)
-    membrane.walk(values, run, runs[run].y, add_pixels, add_ramp);
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const int first = graph.first[run], count = runs[run].x1 - runs[run].x0;
+    line.assign(static_cast<std::size_t>(count), Float4{});
+    for (; edge < graph.ring.size() && graph.ring[edge].pixel < first + count; ++edge)
+      line[static_cast<std::size_t>(graph.ring[edge].pixel - first)] += ring[edge];
+    solve.set_side(run, line);
+  }
+}
+
+Result<Correction> solve_on_pixels(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
+                                   const SolveWay& way, int threads, const Watch& watch) {
+  const auto grids = system.pixels(options.screening, threads, watch);
+  if (!grids) return grids.error();
+  std::shared_ptr<const Membrane> membrane;
+  if (way.membrane) {
+    const auto made = system.membrane(*way.membrane, watch);
+    // Where the edge is too long for it, zero must do for a start.
+    if (!made && made.error().code != "clone.too-large") return made.error();
+    if (made) membrane = *made;
+  }
+  const StageTimer timer(watch.times, "clone.solve");
+  MultigridSolve& solve = **grids;
+  const PixelGraph& graph = system.graph();
+  double range = 0;
+  const std::vector<Float4> ring = ring_values(pair, graph, range);
+  if (options.mode != BlendMode::kMixed)
+    set_membrane_side(ring, graph, solve);
+  else if (!set_mixed_side(pair, graph.mask, solve))
+    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
+  if (watch.stopped()) return cancelled();
+  if (membrane)
+    for_runs(*membrane, membrane->solve(ring), graph.mask,
+             [&](std::size_t run, std::span<const Float4> line) { solve.set_start(run, line); });
+  else
+    solve.start_from_zero();
+  const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
+  const auto solved = solve.solve(tolerance, way.least, way.most, watch);
+  if (!solved) return solved.error();
+  Correction out{{}, solved->error};
+  out.values.reserve(static_cast<std::size_t>(graph.count));
+  std::vector<Float4> line;
+  for (std::size_t run = 0; run < graph.mask.runs().size(); ++run) {
+    line.resize(static_cast<std::size_t>(graph.mask.runs()[run].x1 - graph.mask.runs()[run].x0));
+    solve.get(run, line);
+    std::transform(line.begin(), line.end(), std::back_inserter(out.values), to_channels);
+  }
   return out;
 }
 
 } // namespace
 
-Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, BlendMode mode,
-                                    CloneQuality quality, const Watch& watch) {
-  if (mode != BlendMode::kMixed && quality != CloneQuality::kExport) return span_membrane(pair, system, quality, watch);
-  if (const auto ready = system.prepare(mode, quality, watch); !ready) return ready.error();
-  const StageTimer timer(watch.times, "clone.solve");
-  const std::vector<Channels> side =
-      mode == BlendMode::kMixed ? mixed_side(pair, system.graph()) : membrane_side(pair, system.graph());
-  if (watch.stopped()) return cancelled();
-  Result<CloneSystem::Solution> solved = system.solve(side, watch);
-  if (!solved) return solved.error();
-  return Correction{std::move(solved->u), solved->error};
+SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {
+  const bool is_mixed = options.mode == BlendMode::kMixed;
+  if (!is_mixed && options.screening == 0 && quality != CloneQuality::kExport) return {quality, false, 0, 1, 1};
+  SolveWay way{std::nullopt, true, 0.03, 1, 40};
+  // A membrane is far from a screened solution.
+  if (options.screening == 0) way.membrane = CloneQuality::kDrag;
+  if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
+    way.tolerance_levels = 1.5, way.least = 2, way.most = 6;
+  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.1, way.least = 3, way.most = 20;
+  return way;
+}
+
+Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
+                                    CloneQuality quality, int threads, const Watch& watch) {
+  const SolveWay way = choose_way(options, quality);
+  if (!way.on_pixels) return span_membrane(pair, system, *way.membrane, watch);
+  return solve_on_pixels(pair, system, options, way, threads, watch);
 }
 
 } // namespace oversketch

@@ -5,6 +5,7 @@
 #include "core/clone/clone_system.h"
 #include "core/clone/placed_pair.h"
 
+#include <optional>
 #include <vector>
 
 namespace oversketch {
@@ -17,9 +18,23 @@ struct Correction {
   double error = 0;
 };
 
-/// @param mode  not kNone.
-/// @errors those of the system's parts; cancelled.
-Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, BlendMode mode,
-                                    CloneQuality quality, const Watch& watch);
+/// By what parts of a system a blend is solved.
+struct SolveWay {
+  /// Alone, or as the start on the pixels.
+  std::optional<CloneQuality> membrane;
+  bool on_pixels = false;
+  /// Of the solve on the pixels: errors left, 8-bit levels; the least cycles, the most.
+  double tolerance_levels = 0;
+  int least = 1;
+  int most = 1;
+};
+
+/// @param options  mode not kNone.
+SolveWay choose_way(const BlendOptions& options, CloneQuality quality);
+
+/// @param options  those of the pair; mode not kNone.
+/// @errors those of the system's parts; clone.not-finite (without a place); cancelled.
+Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
+                                    CloneQuality quality, int threads, const Watch& watch);
 
 } // namespace oversketch

@@ -80,8 +80,7 @@ std::int64_t MaskMultigrid::bytes() const {
 }
 
 struct MultigridSolve::State {
-  State(const MaskMultigrid& grids, int thread_count)
-      : data(grids.data_), threads(thread_count), is_tricky(data->is_tricky) {
+  explicit State(const MaskMultigrid& grids) : data(grids.data_), is_tricky(data->is_tricky) {
     std::size_t total = 0;
     for (const GridLevel& level : data->levels)
       total += 2 * kC * static_cast<std::size_t>(level.count());
@@ -209,7 +208,7 @@ struct MultigridSolve::State {
   Result<Outcome> cycle_until(double tolerance, int least, int most, const Watch& watch);
 
   std::shared_ptr<const MaskMultigrid::Data> data;
-  int threads;
+  int threads = 1;
   GridKernels kernels = GridKernels::choose();
   std::unique_ptr<float[]> memory;
   std::size_t floats = 0;
@@ -221,8 +220,7 @@ struct MultigridSolve::State {
   double slowness = 0;
 };
 
-MultigridSolve::MultigridSolve(const MaskMultigrid& grids, int threads)
-    : state_(std::make_unique<State>(grids, threads)) {}
+MultigridSolve::MultigridSolve(const MaskMultigrid& grids) : state_(std::make_unique<State>(grids)) {}
 MultigridSolve::~MultigridSolve() = default;
 MultigridSolve::MultigridSolve(MultigridSolve&&) noexcept = default;
 MultigridSolve& MultigridSolve::operator=(MultigridSolve&&) noexcept = default;
@@ -240,6 +238,10 @@ void into_slots(std::span<const Float4> values, float* slots) {
 }
 
 } // namespace
+
+void MultigridSolve::use_threads(int threads) {
+  state_->threads = std::max(1, threads);
+}
 
 /// The slots of a run of the mask, whose length `count` must be.
 float* MultigridSolve::State::in_run(float* slots, std::size_t run, std::size_t count) const {

@@ -46,13 +46,16 @@ private:
 /// of a Float4 is not looked at, and 0 coming out.
 /// Memory: 24 bytes a pixel and a third more for the coarser grids; with the grids 32–36, at most 40 for any mask.
 /// Accuracy: float's rounding leaves errors of about 0.001 levels at 4 M pixels (values to 1).
-/// @threads one call at a time; inside, `threads` of them, with the same bits for any number.
+/// @threads one call at a time; inside as many as use_threads says, 1 from the start, with the same bits for any
+/// number.
 class MultigridSolve {
 public:
-  explicit MultigridSolve(const MaskMultigrid& grids, int threads = 1);
+  explicit MultigridSolve(const MaskMultigrid& grids);
   ~MultigridSolve();
   MultigridSolve(MultigridSolve&&) noexcept;
   MultigridSolve& operator=(MultigridSolve&&) noexcept;
+
+  void use_threads(int threads);
 
   /// All of b must be set before solve().
   void set_side(std::size_t run, std::span<const Float4> values);
