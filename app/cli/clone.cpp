@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   std::string source, target, mask, out, at = "0,0", mode = "import", domain = "encoded";
-  double strength = 1, feather_px = 0;
+  double strength = 1, feather_px = 0, screening_px = 0;
   int depth = 8;
 };
 
@@ -63,6 +63,9 @@ Result<BlendOptions> blend_options(const Options& options) {
   blend.domain = *domain;
   blend.strength = options.strength;
   blend.feather_px = options.feather_px;
+  if (!(options.screening_px >= 0))
+    return Error{"clone.bad-option", "screening must be a number of 0 or more.", "screening"};
+  blend.screening = screening_for(options.screening_px);
   if (auto sound = check_options(blend); !sound) return sound.error();
   return blend;
 }
@@ -161,6 +164,10 @@ void add_clone(Cli& cli) {
       ->type_name("DOMAIN")
       ->capture_default_str();
   sub->add_option("--feather", options->feather_px, "width over which a strength below 1, or mode none, sets in")
+      ->type_name("PX")
+      ->capture_default_str();
+  sub->add_option("--screening", options->screening_px,
+                  "how far from the edge the colour correction dies away; 0: it does not")
       ->type_name("PX")
       ->capture_default_str();
   sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")

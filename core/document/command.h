@@ -142,7 +142,7 @@ struct LayerSet {
   std::optional<double> strength;
   std::optional<CloneDomain> domain;
   std::optional<bool> visible;
-  std::optional<double> opacity, feather_px;
+  std::optional<double> opacity, feather_px, screening;
   bool operator==(const LayerSet&) const = default;
 };
 

@@ -224,7 +224,11 @@ struct Spec<LayerSet> {
         Field{"visible", &LayerSet::visible, "whether it is drawn; true from the start"},
         Field{"opacity", &LayerSet::opacity, "1 from the start", "", 0, 1},
         Field{"feather_px", &LayerSet::feather_px,
-              "width over which a strength below 1, or mode none, sets in; 0 from the start", "px", 0, 1000});
+              "width over which a strength below 1, or mode none, sets in; 0 from the start", "px", 0, 1000},
+        Field{"screening", &LayerSet::screening,
+              "how far from the edge the colour correction dies away, by a factor of e: keeps a colour that bleeds in "
+              "from tinting the whole region; 0, from the start: it does not",
+              "px", 0, 100000});
   }
 };
 

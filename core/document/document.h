@@ -86,6 +86,7 @@ struct LayerSettings {
   bool visible = true;
   double opacity = 1;
   double feather_px = 0;
+  double screening = 0;
 
   bool operator==(const LayerSettings&) const = default;
 };

@@ -79,7 +79,8 @@ std::string settings_changed(const LayerSet& c) {
       {c.handle_weight.has_value(), "ω"},     {c.iterations.has_value(), "iterations"},
       {c.mode.has_value(), "blend mode"},     {c.strength.has_value(), "strength"},
       {c.domain.has_value(), "domain"},       {c.visible.has_value(), "visibility"},
-      {c.opacity.has_value(), "opacity"},     {c.feather_px.has_value(), "feather"}};
+      {c.opacity.has_value(), "opacity"},     {c.feather_px.has_value(), "feather"},
+      {c.screening.has_value(), "screening"}};
   std::string text;
   for (const auto& [is, word] : given)
     if (is) text += (text.empty() ? ": " : ", ") + std::string(word);

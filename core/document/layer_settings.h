@@ -21,6 +21,7 @@ void for_each_setting(Visit&& visit) {
   visit(&LayerSettings::visible, &LayerSet::visible);
   visit(&LayerSettings::opacity, &LayerSet::opacity);
   visit(&LayerSettings::feather_px, &LayerSet::feather_px);
+  visit(&LayerSettings::screening, &LayerSet::screening);
 }
 
 /// Takes over what the command gives; returns how many settings that were.

@@ -70,6 +70,7 @@ BlendOptions blend_options(const Layer& layer) {
   options.domain = domain_of(layer.settings.domain);
   options.feather_px = layer.settings.feather_px;
   options.opacity = layer.settings.opacity;
+  options.screening = screening_for(layer.settings.screening);
   return options;
 }
 
@@ -136,6 +137,7 @@ Hash blend_key(const Layer& layer, const Hash& deformation) {
       .add(s.strength)
       .add(s.domain)
       .add(s.feather_px)
+      .add(s.screening)
       .add(s.opacity)
       .finish();
 }

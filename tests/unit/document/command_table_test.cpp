@@ -96,7 +96,8 @@ TEST(CommandTable, defaults_named_in_the_help_are_those_of_a_new_layer) {
       {"cell_px", fresh.cell_px},       {"stiffness", fresh.stiffness},
       {"follow", fresh.follow},         {"handle_weight", fresh.handle_weight},
       {"iterations", fresh.iterations}, {"strength", fresh.strength},
-      {"opacity", fresh.opacity},       {"feather_px", fresh.feather_px}};
+      {"opacity", fresh.opacity},       {"feather_px", fresh.feather_px},
+      {"screening", fresh.screening}};
   std::size_t found = 0;
   for (const CommandInfo& command : command_table()) {
     if (command.name != "layer.set") continue;
