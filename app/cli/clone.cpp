@@ -121,7 +121,7 @@ Result<Json> clone(const Options& options, const Watch& watch) {
   } else {
     const auto system = CloneSystem::make(mask);
     if (!system) return system.error();
-    if (const auto ready = system->prepare(blend->mode, CloneQuality::kExport, watch); !ready) return ready.error();
+    if (const auto ready = system->prepare(*blend, CloneQuality::kExport, watch); !ready) return ready.error();
     setup_ms = ms_since(setup_start);
     const auto start = std::chrono::steady_clock::now();
     const auto cloned = clone_into(pixels, *region, shift->x, shift->y, *system, *blend, CloneQuality::kExport, watch);

@@ -91,7 +91,7 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
     correction = std::move(*solved);
   }
   const StageTimer timer(watch.times, "clone.paint");
-  const Painting painting{pair, system.graph(), options, correction.values};
+  const Painting painting{pair, system.graph(), options, &correction};
   const Result<double> largest = paint(target, painting, dx, dy, watch);
   if (!largest) return largest.error();
   report.residual_levels = 255 * correction.error * largest_slope(options.domain, *largest);
@@ -109,7 +109,7 @@ Result<CloneReport> paste_into(Raster<Rgba>& target, const WarpedRegion& source,
   if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
   const StageTimer timer(watch.times, "clone.paint");
   const PixelGraph graph(mask);
-  const Result<double> largest = paint(target, {pair, graph, options, {}}, dx, dy, watch);
+  const Result<double> largest = paint(target, {pair, graph, options, nullptr}, dx, dy, watch);
   if (!largest) return largest.error();
   return report;
 }

@@ -4,7 +4,6 @@
 #include "core/clone/mixed_rows.h"
 
 #include <algorithm>
-#include <iterator>
 #include <span>
 
 namespace oversketch {
@@ -12,10 +11,6 @@ namespace {
 
 Float4 to_float(const Channels& c) {
   return {Float4::Lanes{static_cast<float>(c.v[0]), static_cast<float>(c.v[1]), static_cast<float>(c.v[2]), 0}};
-}
-
-Channels to_channels(const Float4& f) {
-  return {{f[0], f[1], f[2], 0}};
 }
 
 /// The widest range of a channel.
@@ -37,35 +32,15 @@ std::vector<Float4> ring_values(const PlacedPair& pair, const PixelGraph& graph,
   return ring;
 }
 
-/// Calls `take(run, values)` with a membrane's values run by run.
-template <class Take>
-void for_runs(const Membrane& membrane, const MembraneValues& values, const Mask& mask, Take take) {
-  std::vector<Float4> line;
-  const auto add_pixels = [&](const Float4* at, int count) { line.insert(line.end(), at, at + count); };
-  const auto add_ramp = [&](const Float4& first, const Float4& step, int count) {
-    for (int i = 0; i < count; ++i)
-      line.push_back(first + static_cast<float>(i) * step);
-  };
-  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
-    line.clear();
-    membrane.walk(values, run, mask.runs()[run].y, add_pixels, add_ramp);
-    take(run, std::span<const Float4>(line));
-  }
-}
-
 Result<Correction> span_membrane(const PlacedPair& pair, const CloneSystem& system, CloneQuality quality,
                                  const Watch& watch) {
   const auto made = system.membrane(quality, watch);
   if (!made) return made.error();
   const StageTimer timer(watch.times, "clone.solve");
   double range = 0;
-  const MembraneValues values = (*made)->solve(ring_values(pair, system.graph(), range));
+  Correction out{*made, (*made)->solve(ring_values(pair, system.graph(), range)), nullptr, 0};
+  out.error = (*made)->error_share() * range;
   if (watch.stopped()) return cancelled();
-  Correction out{{}, (*made)->error_share() * range};
-  out.values.reserve(static_cast<std::size_t>(system.graph().count));
-  for_runs(**made, values, system.mask(), [&](std::size_t, std::span<const Float4> line) {
-    std::transform(line.begin(), line.end(), std::back_inserter(out.values), to_channels);
-  });
   return out;
 }
 
@@ -80,6 +55,14 @@ void set_membrane_side(const std::vector<Float4>& ring, const PixelGraph& graph,
     for (; edge < graph.ring.size() && graph.ring[edge].pixel < first + count; ++edge)
       line[static_cast<std::size_t>(graph.ring[edge].pixel - first)] += ring[edge];
     solve.set_side(run, line);
+  }
+}
+
+void start_from(const Correction& start, const Mask& mask, MultigridSolve& solve) {
+  std::vector<Float4> line;
+  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+    start.read(run, mask.runs()[run], line);
+    solve.set_start(run, line);
   }
 }
 
@@ -105,25 +88,30 @@ Result<Correction> solve_on_pixels(const PlacedPair& pair, const CloneSystem& sy
     return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
   if (watch.stopped()) return cancelled();
   if (membrane)
-    for_runs(*membrane, membrane->solve(ring), graph.mask,
-             [&](std::size_t run, std::span<const Float4> line) { solve.set_start(run, line); });
+    start_from({membrane, membrane->solve(ring), nullptr, 0}, graph.mask, solve);
   else
     solve.start_from_zero();
   const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
   const auto solved = solve.solve(tolerance, way.least, way.most, watch);
   if (!solved) return solved.error();
-  Correction out{{}, solved->error};
-  out.values.reserve(static_cast<std::size_t>(graph.count));
-  std::vector<Float4> line;
-  for (std::size_t run = 0; run < graph.mask.runs().size(); ++run) {
-    line.resize(static_cast<std::size_t>(graph.mask.runs()[run].x1 - graph.mask.runs()[run].x0));
-    solve.get(run, line);
-    std::transform(line.begin(), line.end(), std::back_inserter(out.values), to_channels);
-  }
-  return out;
+  return Correction{nullptr, {}, *grids, solved->error};
 }
 
 } // namespace
+
+void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float4>& u) const {
+  u.clear();
+  if (membrane)
+    membrane->walk(
+        values, index, run.y, [&](const Float4* at, int count) { u.insert(u.end(), at, at + count); },
+        [&](Float4 value, const Float4& step, int count) {
+          for (int i = 0; i < count; ++i, value += step)
+            u.push_back(value);
+        });
+  else
+    u.resize(static_cast<std::size_t>(run.x1 - run.x0));
+  if (pixels) pixels->get(index, u);
+}
 
 SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {
   const bool is_mixed = options.mode == BlendMode::kMixed;

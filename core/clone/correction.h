@@ -10,12 +10,18 @@
 
 namespace oversketch {
 
-/// u = f − g of a placed pair.
+/// u = f − g of a placed pair, where its solver left it; neither: u = 0.
 struct Correction {
-  /// By pixel number; empty: u = 0.
-  std::vector<Channels> values;
+  std::shared_ptr<const Membrane> membrane;
+  MembraneValues values;
+  std::shared_ptr<const MultigridSolve> pixels;
   /// A bound on the error in any pixel and channel, in the domain's values: see CloneReport::residual_levels.
   double error = 0;
+
+  bool is_zero() const { return !membrane && !pixels; }
+  /// u of a run of the mask from left to right, in place of what `u` holds; the fourth number means nothing.
+  /// @param index  its number in the mask.
+  void read(std::size_t index, const Mask::Run& run, std::vector<Float4>& u) const;
 };
 
 /// By what parts of a system a blend is solved.

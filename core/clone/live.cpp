@@ -108,7 +108,7 @@ void in_parts(std::span<const LiveRow> rows, int threads, const std::function<vo
 
 /// Source and target in float, where the mask lies: for what must be solved on every pixel.
 Result<Correction> solve_in_float(const Raster<Rgba8>& below, const Data& region, Place at, const BlendOptions& options,
-                                  CloneQuality quality, const Watch& watch) {
+                                  CloneQuality quality, int threads, const Watch& watch) {
   const PixelGraph& graph = region.system.graph();
   const Rect box = grown(graph.mask.bounds(), 1);
   // Of the target what the box covers; its edges are repeated where they are the target's.
@@ -128,8 +128,8 @@ Result<Correction> solve_in_float(const Raster<Rgba8>& below, const Data& region
     }
   for (std::size_t i = 0; i < graph.ring.size(); ++i)
     source.pixels.at(graph.ring[i].x - box.x, graph.ring[i].y - box.y) = region.ring[i];
-  return solve_correction(PlacedPair(target, source, at.dx - x0, at.dy - y0, options), region.system, options.mode,
-                          quality, watch);
+  return solve_correction(PlacedPair(target, source, at.dx - x0, at.dy - y0, options), region.system, options, quality,
+                          threads, watch);
 }
 
 bool needs_solution(const BlendOptions& options) {
@@ -145,38 +145,34 @@ bool is_plain_import(const Data& region, const BlendOptions& options) {
 /// @returns the bound on the error, in the domain's values.
 Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const Data& region, Place at,
                            const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
-  BlendPainting painting{region, options};
-  MembraneValues values;
-  std::shared_ptr<const Membrane> membrane;
   Correction correction;
   const bool plain = is_plain_import(region, options);
-  if (needs_solution(options) && options.mode != BlendMode::kMixed && quality != CloneQuality::kExport) {
+  const bool solves = needs_solution(options), on_pixels = solves && choose_way(options, quality).on_pixels;
+  if (solves && !on_pixels) {
     const auto made = region.system.membrane(quality, watch);
     if (!made) return made.error();
-    membrane = *made;
     const StageTimer timer(watch.times, "clone.solve");
     const RingValues ring = ring_values(below, region, at, options, plain ? LivePixel::kOpaque : 1.0F);
-    values = membrane->solve(ring.values);
-    painting.membrane = membrane.get();
-    painting.values = &values;
-    correction.error = membrane->error_share() * ring.range;
-  } else if (needs_solution(options)) {
-    auto solved = solve_in_float(below, region, at, options, quality, watch);
+    correction.membrane = *made;
+    correction.values = correction.membrane->solve(ring.values);
+    correction.error = correction.membrane->error_share() * ring.range;
+  } else if (solves) {
+    auto solved = solve_in_float(below, region, at, options, quality, threads, watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
-    painting.correction = correction.values;
   }
   if (watch.stopped()) return cancelled();
 
   const StageTimer timer(watch.times, "clone.paint");
   const std::vector<LiveRow> rows = list_rows(below, out, region.system.graph(), at);
-  if (plain && membrane) {
-    const RowPainting plain_painting{*membrane, values, region.pixels.data()};
+  if (plain && correction.membrane) {
+    const RowPainting plain_painting{*correction.membrane, correction.values, region.pixels.data()};
     const auto paint = has_avx2() ? paint_rows_avx2 : paint_rows;
     in_parts(rows, threads, [&](std::span<const LiveRow> part) { paint(plain_painting, part); });
     return correction.error;
   }
   const auto tables = region.tables_of(options.domain);
+  BlendPainting painting{region, options, correction};
   painting.tables = tables.get();
   std::shared_ptr<const std::vector<float>> depths;
   if (options.feather_px > 0 && (options.strength < 1 || options.mode == BlendMode::kNone))

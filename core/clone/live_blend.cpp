@@ -129,36 +129,15 @@ private:
   float opacity_, strength_, average_;
 };
 
-/// u of a whole run.
-void read_run(const BlendPainting& painting, const LiveRow& row, std::vector<Float4>& u) {
-  u.clear();
-  if (painting.membrane != nullptr) {
-    painting.membrane->walk(
-        *painting.values, row.run, row.y, [&](const Float4* at, int count) { u.insert(u.end(), at, at + count); },
-        [&](Float4 value, const Float4& step, int count) {
-          u.resize(u.size() + static_cast<std::size_t>(count));
-          for (Float4* to = u.data() + u.size() - count; to != u.data() + u.size(); ++to, value += step)
-            *to = value;
-        });
-    return;
-  }
-  u.resize(static_cast<std::size_t>(row.skipped + row.count));
-  if (painting.correction.empty()) return;
-  const std::size_t first = row.pixel - static_cast<std::size_t>(row.skipped);
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const Channels& c = painting.correction[first + i];
-    u[i] = lanes(static_cast<float>(c.v[0]), static_cast<float>(c.v[1]), static_cast<float>(c.v[2]), 0);
-  }
-}
-
 } // namespace
 
 void paint_blended(const BlendPainting& painting, std::span<const LiveRow> rows) {
   const Blender blender(painting);
   const auto per_px = static_cast<float>(1 / (painting.options.feather_px + 1));
+  const std::vector<Mask::Run>& runs = painting.region.system.mask().runs();
   std::vector<Float4> u;
   for (const LiveRow& row : rows) {
-    read_run(painting, row, u);
+    painting.correction.read(row.run, runs[row.run], u);
     const Float4* const correction = u.data() + row.skipped;
     const LivePixel* const source = painting.region.pixels.data() + row.pixel;
     for (int i = 0; i < row.count; ++i) {

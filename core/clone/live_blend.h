@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/clone/correction.h"
 #include "core/clone/live_data.h"
 
 #include <span>
@@ -10,10 +11,7 @@ namespace oversketch {
 struct BlendPainting {
   const LiveRegion::Data& region;
   const BlendOptions& options;
-  /// Where u comes from: a membrane with its values, u by pixel number, or neither, u = 0.
-  const Membrane* membrane = nullptr;
-  const MembraneValues* values = nullptr;
-  std::span<const Channels> correction = {};
+  const Correction& correction;
   /// Null in the encoded domain.
   const DomainTables* tables = nullptr;
   /// CloneSystem::depths; null where no feather is used.

@@ -10,12 +10,19 @@
 namespace oversketch {
 namespace {
 
-std::vector<TargetRun> clip_runs(const Raster<Rgba>& target, const PixelGraph& graph, int dx, int dy) {
-  std::vector<TargetRun> out;
+/// A run of the mask, as far as it lies on the target.
+struct PaintedRun {
+  TargetRun at;
+  /// Its number in the mask.
+  std::size_t run = 0;
+};
+
+std::vector<PaintedRun> clip_runs(const Raster<Rgba>& target, const PixelGraph& graph, int dx, int dy) {
+  std::vector<PaintedRun> out;
   const std::vector<Mask::Run>& runs = graph.mask.runs();
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (const TargetRun run = clip_run(target.rect(), runs[k], graph.first[k], dx, dy); run.x0 < run.x1)
-      out.push_back(run);
+      out.push_back({run, k});
   return out;
 }
 
@@ -30,13 +37,24 @@ Rgba over(const Channels& colour, double w, const Rgba& below) {
 class Painter {
 public:
   explicit Painter(const Painting& painting)
-      : pair_(painting.pair), options_(painting.options), correction_(painting.correction) {
+      : pair_(painting.pair), graph_(painting.graph), options_(painting.options), correction_(painting.correction) {
+    if (correction_ != nullptr && correction_->is_zero()) correction_ = nullptr;
     const bool fades = options_.mode == BlendMode::kNone || options_.strength < 1;
     if (fades && options_.feather_px > 0) inside_ = inside_weights(painting.graph, options_.feather_px);
   }
 
+  /// Calls `take(pixel)` for the pixels of a run, from left to right; (dx, dy) as in paint().
+  template <class Take>
+  void run(const PaintedRun& run, int dx, int dy, Take take) {
+    if (correction_ != nullptr) correction_->read(run.run, graph_.mask.runs()[run.run], u_);
+    first_ = graph_.first[run.run];
+    for (int i = 0; i < run.at.length(); ++i)
+      take(pixel(run.at.pixel + i, run.at.x0 + i - dx, run.at.y - dy));
+  }
+
+private:
   /// Pixel number k at (x, y) of the mask.
-  Rgba operator()(int k, int x, int y) const {
+  Rgba pixel(int k, int x, int y) const {
     const Rgba &source = pair_.source_pixel(x, y), &below = pair_.target_pixel(x, y);
     const bool pastes = options_.mode == BlendMode::kNone;
     const double inside = inside_.empty() ? 1 : inside_[static_cast<std::size_t>(k)];
@@ -48,12 +66,12 @@ public:
     return over(colour, w, below);
   }
 
-private:
   Channels blended(int k, const Rgba& source, const Rgba& below, double inside) const {
     Channels values = pair_.source_values(source);
-    if (!correction_.empty()) {
+    if (correction_ != nullptr) {
       const double strength = 1 - (1 - options_.strength) * inside;
-      values += strength * correction_[static_cast<std::size_t>(k)];
+      const Float4& u = u_[static_cast<std::size_t>(k - first_)];
+      values += strength * Channels{{u[0], u[1], u[2], 0}};
     }
     if (options_.mode == BlendMode::kAverage)
       values = options_.average * values + (1 - options_.average) * to_domain(below, options_.domain);
@@ -61,8 +79,12 @@ private:
   }
 
   const PlacedPair& pair_;
+  const PixelGraph& graph_;
   const BlendOptions& options_;
-  std::span<const Channels> correction_;
+  const Correction* correction_;
+  /// Of the whole run that is painted, and the number of its first pixel.
+  std::vector<Float4> u_;
+  int first_ = 0;
   /// Empty: all 1.
   std::vector<double> inside_;
 };
@@ -92,29 +114,28 @@ Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy) {
 }
 
 Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch) {
-  const std::vector<TargetRun> runs = clip_runs(target, painting.graph, dx, dy);
+  const std::vector<PaintedRun> runs = clip_runs(target, painting.graph, dx, dy);
   std::size_t count = 0;
-  for (const TargetRun& run : runs)
-    count += static_cast<std::size_t>(run.length());
+  for (const PaintedRun& run : runs)
+    count += static_cast<std::size_t>(run.at.length());
   // Set aside first, so that a result that overflows leaves the target as it was.
   std::vector<Rgba> result;
   result.reserve(count);
-  const Painter painter(painting);
+  Painter painter(painting);
   float largest = 0;
   bool finite = true;
-  for (const TargetRun& run : runs)
-    for (int i = 0; i < run.length(); ++i) {
-      result.push_back(painter(run.pixel + i, run.x0 + i - dx, run.y - dy));
-      const float here = largest_of(result.back());
-      finite &= std::isfinite(result.back().r) && std::isfinite(result.back().g) && std::isfinite(result.back().b);
-      largest = std::max(largest, here);
-    }
+  for (const PaintedRun& run : runs)
+    painter.run(run, dx, dy, [&](const Rgba& pixel) {
+      result.push_back(pixel);
+      finite &= std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
+      largest = std::max(largest, largest_of(pixel));
+    });
   if (!finite) return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
   if (watch.stopped()) return cancelled();
   auto from = result.begin();
-  for (const TargetRun& run : runs) {
-    std::copy(from, from + run.length(), &target.at(run.x0, run.y));
-    from += run.length();
+  for (const PaintedRun& run : runs) {
+    std::copy(from, from + run.at.length(), &target.at(run.at.x0, run.at.y));
+    from += run.at.length();
   }
   return static_cast<double>(largest);
 }

@@ -2,19 +2,18 @@
 
 #include "core/base/result.h"
 #include "core/base/watch.h"
+#include "core/clone/correction.h"
 #include "core/clone/pixel_graph.h"
 #include "core/clone/placed_pair.h"
 
-#include <span>
-
 namespace oversketch {
 
-/// What is painted: the pair, and the correction u by pixel number (empty: u = 0).
+/// What is painted: the pair, and the correction u (null: u = 0).
 struct Painting {
   const PlacedPair& pair;
   const PixelGraph& graph;
   const BlendOptions& options;
-  std::span<const Channels> correction;
+  const Correction* correction;
 };
 
 /// A run shifted by (dx, dy) and clipped to the target: columns x0 ≤ x < x1 and row y of the target, `pixel` the number
