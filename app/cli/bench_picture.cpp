@@ -3,7 +3,9 @@
 #include "app/cli/bench_cases.h"
 #include "app/cli/bench_shapes.h"
 
-#include "core/clone/clone.h"
+#include "core/clone/guidance.h"
+#include "core/clone/pixel_solver.h"
+#include "core/clone/placed_pair.h"
 #include "core/warp/warp.h"
 
 #include <cmath>
@@ -32,17 +34,11 @@ Result<void> run_clone(const CloneSize& size, const BenchInput& input, BenchReco
   const auto source = unwarped_region(Image(make_picture(box.x + box.width + 8, box.y + box.height + 8, 1)), mask);
   if (!source) return source.error();
   const Raster<Rgba> picture = make_picture(box.x + box.width + 40, box.y + box.height + 40, 2);
-  const auto make = [&]() -> Result<CloneSystem> {
-    auto system = CloneSystem::make(mask);
-    if (!system) return system;
-    if (auto ready = system->prepare(BlendMode::kMixed, CloneQuality::kExport, input.watch); !ready)
-      return ready.error();
-    return system;
-  };
+  const auto make = [&] { return PixelSolver::make(mask, input.watch); };
   if (auto done = record.repeat(size.name + ".setup", "blob", std::min(input.runs, 3), make); !done)
     return done.error();
-  const auto system = make();
-  if (!system) return system.error();
+  const auto solver = make();
+  if (!solver) return solver.error();
 
   Raster<Rgba> target = picture;
   int moves = 0;
@@ -50,11 +46,13 @@ Result<void> run_clone(const CloneSize& size, const BenchInput& input, BenchReco
     BlendOptions options;
     options.mode = mode;
     const int shift = moves++ % 16;
-    return clone_into(target, *source, shift, 16 - shift, *system, options, CloneQuality::kExport, input.watch);
+    const PlacedPair pair(picture, *source, shift, 16 - shift, options);
+    const PixelGraph& graph = solver->graph();
+    return Result<std::vector<Channels>>(
+        solver->solve(mode == BlendMode::kMixed ? mixed_side(pair, graph) : membrane_side(pair, graph)));
   };
   auto done = record.repeat(size.name + ".move", "blob", input.runs, [&] { return move(BlendMode::kImport); });
   if (!done) return done.error();
-  target = picture;
   done = record.repeat(size.name + ".mixed", "blob", input.runs, [&] { return move(BlendMode::kMixed); });
   if (!done) return done.error();
   target = picture;
@@ -112,17 +110,17 @@ Result<void> run_warp(const BenchInput& input, BenchRecord& record) {
 std::vector<BenchGroup> picture_benches() {
   return {
       {{{"clone.reference.65k.setup", "ms", "65k pixels: factorization", {}, {}},
-        {"clone.reference.65k.move", "ms", "  a move, gradients imported", {}, 10.0},
-        {"clone.reference.65k.mixed", "ms", "  a move, gradients mixed", {}, {}},
+        {"clone.reference.65k.move", "ms", "  a solution, gradients imported", {}, 10.0},
+        {"clone.reference.65k.mixed", "ms", "  a solution, gradients mixed", {}, {}},
         {"clone.reference.65k.floor", "ms", "  both pictures read, one written", {}, {}},
-        {"clone.reference.65k.floors", "ratio", "  a move by that floor", {}, {}}},
+        {"clone.reference.65k.floors", "ratio", "  a solution by that floor", {}, {}}},
        false,
        run_small_clone},
       {{{"clone.reference.262k.setup", "ms", "262k pixels: factorization", {}, {}},
-        {"clone.reference.262k.move", "ms", "  a move, gradients imported", {}, 59.0},
-        {"clone.reference.262k.mixed", "ms", "  a move, gradients mixed", {}, {}},
+        {"clone.reference.262k.move", "ms", "  a solution, gradients imported", {}, 59.0},
+        {"clone.reference.262k.mixed", "ms", "  a solution, gradients mixed", {}, {}},
         {"clone.reference.262k.floor", "ms", "  both pictures read, one written", {}, {}},
-        {"clone.reference.262k.floors", "ratio", "  a move by that floor", {}, {}}},
+        {"clone.reference.262k.floors", "ratio", "  a solution by that floor", {}, {}}},
        false,
        run_large_clone},
       {{{"warp.ns_per_pixel", "ns", "a deformed region drawn, a pixel of 262k", {}, 5.5}}, true, run_warp},

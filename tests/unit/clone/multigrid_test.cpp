@@ -1,0 +1,276 @@
+#include "core/clone/multigrid.h"
+
+#include "core/base/check.h"
+#include "core/clone/grid_kernels.h"
+#include "core/clone/grid_level.h"
+#include "core/clone/pixel_solver.h"
+#include "tests/unit/clone/grid_shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace oversketch {
+namespace {
+
+constexpr double kLevel = 1.0 / 255;
+
+/// Noise, with sums that are far from 0: both rough and smooth errors.
+std::vector<Channels> noise_side(const Mask& mask, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> value;
+  std::vector<Channels> b(static_cast<std::size_t>(mask.count()));
+  for (Channels& c : b)
+    for (std::size_t k = 0; k < 3; ++k)
+      c.v[k] = static_cast<float>(0.05 * value(random) + 0.0005);
+  return b;
+}
+
+void set_side(MultigridSolve& solve, const Mask& mask, const std::vector<Channels>& b) {
+  std::size_t k = 0;
+  std::vector<Float4> line;
+  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+    line.clear();
+    for (int x = mask.runs()[run].x0; x < mask.runs()[run].x1; ++x, ++k)
+      line.push_back({Float4::Lanes{static_cast<float>(b[k].v[0]), static_cast<float>(b[k].v[1]),
+                                    static_cast<float>(b[k].v[2]), 7}});
+    solve.set_side(run, line);
+  }
+}
+
+std::vector<Float4> get(const MultigridSolve& solve, const Mask& mask) {
+  std::vector<Float4> all, line;
+  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+    line.resize(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0));
+    solve.get(run, line);
+    all.insert(all.end(), line.begin(), line.end());
+  }
+  return all;
+}
+
+double worst_error(const std::vector<Float4>& u, const std::vector<Channels>& exact) {
+  double worst = 0;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      worst = std::max(worst, std::abs(static_cast<double>(u[i][k]) - exact[i].v[k]));
+  return worst;
+}
+
+std::vector<Channels> solve_exactly(const Mask& mask, const std::vector<Channels>& b) {
+  const Result<PixelSolver> solver = PixelSolver::make(mask);
+  EXPECT_TRUE(solver.ok());
+  return solver->solve(b);
+}
+
+MultigridSolve make_solve(const Mask& mask, double screening = 0) {
+  const Result<MaskMultigrid> grids = MaskMultigrid::make(mask, screening);
+  EXPECT_TRUE(grids.ok());
+  return MultigridSolve(*grids);
+}
+
+TEST(Multigrid, RefusesEmptyAndHugeMasksAndStops) {
+  EXPECT_EQ(MaskMultigrid::make(Mask()).error().code, "clone.empty-mask");
+  std::vector<Mask::Run> huge;
+  for (int y = 0; y < 1000; ++y)
+    huge.push_back({y, 0, 1'000'000});
+  EXPECT_EQ(MaskMultigrid::make(Mask(huge)).error().code, "clone.too-large");
+  const Mask square = rect_mask({0, 0, 200, 200});
+  EXPECT_THROW((void)MaskMultigrid::make(square, -1), BugError);
+  EXPECT_THROW((void)MaskMultigrid::make(square, std::nan("")), BugError);
+  std::stop_source stop;
+  stop.request_stop();
+  const Watch stopped{stop.get_token(), {}, nullptr};
+  EXPECT_EQ(MaskMultigrid::make(square, 0, stopped).error(), cancelled());
+  MultigridSolve solve = make_solve(square);
+  set_side(solve, square, noise_side(square, 1));
+  EXPECT_EQ(solve.solve(0, 1, 5, stopped).error(), cancelled());
+  std::vector<Float4> wrong(199);
+  EXPECT_THROW(solve.set_side(0, wrong), BugError);
+  EXPECT_THROW(solve.set_start(0, wrong), BugError);
+  EXPECT_THROW(solve.get(0, wrong), BugError);
+}
+
+TEST(Multigrid, SolvesOnMasksOfAnyShape) {
+  for (const auto& [name, mask] : all_masks()) {
+    const std::vector<Channels> b = noise_side(mask, 2);
+    const std::vector<Channels> exact = solve_exactly(mask, b);
+    MultigridSolve solve = make_solve(mask);
+    set_side(solve, mask, b);
+    const auto done = solve.solve(0.02 * kLevel, 1, 60);
+    ASSERT_TRUE(done.ok()) << name;
+    EXPECT_LE(done->error, 0.02 * kLevel) << name;
+    EXPECT_LE(done->cycles, 16) << name;
+    EXPECT_LT(worst_error(get(solve, mask), exact), 0.02 * kLevel) << name;
+  }
+}
+
+TEST(Multigrid, SaysHowLargeTheErrorIs) {
+  for (const auto& [name, mask] : all_masks()) {
+    const std::vector<Channels> b = noise_side(mask, 3);
+    const std::vector<Channels> exact = solve_exactly(mask, b);
+    for (const int cycles : {1, 2, 3, 4, 5}) {
+      MultigridSolve solve = make_solve(mask);
+      set_side(solve, mask, b);
+      const auto done = solve.solve(0, cycles, cycles);
+      const double error = worst_error(get(solve, mask), exact);
+      if (error > 0.01 * kLevel) EXPECT_GE(done->error, error) << name << " after " << cycles;
+      // And not a hundred times too much, once the first guess is past.
+      if (cycles > 2 && error > 0.01 * kLevel) EXPECT_LE(done->error, 100 * error) << name << " after " << cycles;
+    }
+  }
+}
+
+/// How much smaller the error becomes by the third of three cycles.
+double contraction_on(const Mask& mask) {
+  const std::vector<Channels> b = noise_side(mask, 4);
+  const std::vector<Channels> exact = solve_exactly(mask, b);
+  double before = 0, after = 0;
+  for (const int cycles : {2, 3}) {
+    MultigridSolve solve = make_solve(mask);
+    set_side(solve, mask, b);
+    EXPECT_EQ(solve.solve(0, cycles, cycles)->cycles, cycles);
+    before = after;
+    after = worst_error(get(solve, mask), exact);
+  }
+  return before == 0 ? 0 : after / before;
+}
+
+TEST(Multigrid, ACycleTakesOffFourFifthsOfTheErrorOnWholeRegions) {
+  for (const auto& [name, mask] : plain_masks())
+    EXPECT_LT(contraction_on(mask), 0.2) << name;
+}
+
+TEST(Multigrid, ACycleTakesOffHalfOfTheErrorOnAnyMask) {
+  for (const auto& [name, mask] : tricky_masks())
+    EXPECT_LT(contraction_on(mask), 0.5) << name;
+}
+
+TEST(Multigrid, GivesTheSameBitsWithAnyNumberOfThreads) {
+  // Large enough to be cut into bands, on the second grid too; with and without tricks.
+  for (const Mask& mask : {rect_mask({3, 5, 700, 650}), holed_mask(600, 40, 6), snake_mask(400, 1500, 60)}) {
+    const std::vector<Channels> b = noise_side(mask, 5);
+    std::vector<Float4> expected;
+    for (const int threads : {1, 2, 3, 7}) {
+      MultigridSolve solve = make_solve(mask);
+      solve.use_threads(threads);
+      set_side(solve, mask, b);
+      ASSERT_TRUE(solve.solve(0, 4, 4).ok());
+      const std::vector<Float4> u = get(solve, mask);
+      if (expected.empty()) expected = u;
+      for (std::size_t i = 0; i < u.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+          ASSERT_EQ(u[i][k], expected[i][k]) << threads;
+    }
+  }
+}
+
+TEST(Multigrid, MemoryFollowsThePixels) {
+  for (const auto& [name, mask] : all_masks()) {
+    const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
+    const std::int64_t bytes = grids->bytes() + MultigridSolve(*grids).bytes();
+    // What is factored at the end takes less than this, whatever the mask.
+    EXPECT_LE(bytes, 40 * mask.count() + 100'000) << name;
+  }
+  for (const Mask& mask : {random_mask({0, 0, 900, 900}, 0.5, 1), random_mask({0, 0, 900, 900}, 0.7, 2),
+                           rect_mask({0, 0, 1, 500'000}), rect_mask({0, 0, 800, 800})}) {
+    const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
+    EXPECT_LE(grids->bytes() + MultigridSolve(*grids).bytes(), 37 * mask.count());
+  }
+}
+
+TEST(Multigrid, GoesOnFromWhereItIsTold) {
+  const Mask mask = disc_mask(0, 0, 60);
+  const std::vector<Channels> b = noise_side(mask, 6);
+  const std::vector<Channels> exact = solve_exactly(mask, b);
+  MultigridSolve solve = make_solve(mask);
+  set_side(solve, mask, b);
+  std::vector<Float4> line;
+  std::size_t k = 0;
+  for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+    line.clear();
+    for (int x = mask.runs()[run].x0; x < mask.runs()[run].x1; ++x, ++k)
+      line.push_back({Float4::Lanes{static_cast<float>(exact[k].v[0]), static_cast<float>(exact[k].v[1]),
+                                    static_cast<float>(exact[k].v[2]), 7}});
+    solve.set_start(run, line);
+  }
+  const auto done = solve.solve(0.02 * kLevel, 1, 9);
+  EXPECT_EQ(done->cycles, 1);
+  EXPECT_LT(worst_error(get(solve, mask), exact), 0.01 * kLevel);
+  // From zero again.
+  solve.start_from_zero();
+  EXPECT_GT(solve.solve(0.02 * kLevel, 1, 9)->cycles, 2);
+}
+
+TEST(Multigrid, OfNothingIsNothing) {
+  for (const auto& [name, mask] : all_masks()) {
+    MultigridSolve solve = make_solve(mask);
+    set_side(solve, mask, std::vector<Channels>(static_cast<std::size_t>(mask.count())));
+    ASSERT_TRUE(solve.solve(0, 3, 3).ok());
+    for (const Float4& u : get(solve, mask))
+      for (std::size_t k = 0; k < 4; ++k)
+        ASSERT_EQ(u[k], 0) << name;
+  }
+}
+
+TEST(Multigrid, ScreeningIsAddedToTheDiagonal) {
+  for (const double screening : {1e-4, 0.02, 3.0, 1e6})
+    for (const Mask& mask : {disc_mask(0, 0, 50), holed_mask(120, 30, 4), rect_mask({0, 0, 9, 9})}) {
+      // b = (A + λ) u, from the definition.
+      std::mt19937 random(7);
+      std::normal_distribution<double> value;
+      const PixelGraph graph(mask);
+      std::vector<Channels> u(static_cast<std::size_t>(mask.count())), b(u.size());
+      for (Channels& c : u)
+        for (std::size_t k = 0; k < 3; ++k)
+          c.v[k] = static_cast<float>(0.5 + 0.1 * value(random));
+      std::map<std::pair<int, int>, std::size_t> number;
+      for (const Mask::Run& run : mask.runs())
+        for (int x = run.x0; x < run.x1; ++x)
+          number.emplace(std::pair{x, run.y}, number.size());
+      for (const auto& [place, p] : number) {
+        b[p] = (4 + screening) * u[p];
+        for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}})
+          if (const auto q = number.find({place.first + dx, place.second + dy}); q != number.end())
+            b[p] -= u[q->second];
+      }
+      MultigridSolve solve = make_solve(mask, screening);
+      set_side(solve, mask, b);
+      ASSERT_TRUE(solve.solve(0.01 * kLevel, 1, 30).ok());
+      EXPECT_LT(worst_error(get(solve, mask), u), 0.02 * kLevel) << screening;
+    }
+}
+
+TEST(GridKernels, AllSetsGiveTheSameBits) {
+  std::mt19937 random(8);
+  std::normal_distribution<float> value;
+  std::vector<float> in(600);
+  for (float& v : in)
+    v = value(random);
+  const GridKernels plain = GridKernels::plain(), best = GridKernels::choose();
+  for (const std::size_t count : {1u, 3u, 7u, 8u, 29u, 64u}) {
+    const GridNeighbours at{&in[0], &in[71], &in[142], &in[213]};
+    const auto same = [&](auto run) {
+      std::vector<float> a(in.begin() + 300, in.begin() + 300 + 3 * 64), b = a;
+      run(plain, a.data());
+      run(best, b.data());
+      EXPECT_EQ(a, b) << count;
+    };
+    same([&](const GridKernels& k, float* out) { k.relax(out, &in[284], at, count, 0.23f); });
+    same([&](const GridKernels& k, float* out) { k.relax_zero(out, &in[284], count, 0.23f); });
+    same([&](const GridKernels& k, float* out) { k.residual(out, &in[284], &in[400], at, count, 0.1f); });
+    same([&](const GridKernels& k, float* out) { k.add_half(out, at, count); });
+    same([&](const GridKernels& k, float* out) { k.surplus(out, 64, {&in[0], 31}, {&in[1], 31}, count); });
+  }
+}
+
+TEST(GridLevel, NeverHasMoreThanAQuarterOfTheNodesBelow) {
+  for (const auto& [name, mask] : all_masks()) {
+    GridMaking fine = make_finest(mask, 0);
+    while (fine.level.count() > 0) {
+      GridMaking coarse = coarsen(fine, 0);
+      EXPECT_LE(4 * coarse.level.count(), fine.level.count()) << name;
+      fine = std::move(coarse);
+    }
+  }
+}
+
+} // namespace
+} // namespace oversketch
