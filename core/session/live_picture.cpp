@@ -33,6 +33,7 @@ Hash name_of(const DrawnLayer& layer) {
       .add(o.domain)
       .add(o.feather_px)
       .add(o.opacity)
+      .add(o.screening)
       .add(o.average)
       .finish();
 }
@@ -45,6 +46,10 @@ void copy_rect(const Raster<Rgba8>& from, Raster<Rgba8>& to, const Rect& rect) {
 
 bool needs_system(const DrawnLayer& layer) {
   return layer.options.mode != BlendMode::kNone;
+}
+
+bool solves_on_pixels(const DrawnLayer& layer) {
+  return layer.options.mode == BlendMode::kMixed || layer.options.screening > 0;
 }
 
 } // namespace
@@ -93,14 +98,14 @@ Result<std::vector<Picture::Painted>> Picture::prepare(std::span<const DrawnLaye
       // At rest both are made: the finest for what stays, the quick one for the next time it is moved.
       if (quality == Quality::kRest) {
         for (const CloneQuality wish : {CloneQuality::kDrag, CloneQuality::kRest})
-          if (auto made = shape.system->prepare(layer.options.mode, wish, watch); !made)
+          if (auto made = shape.system->prepare(layer.options, wish, watch); !made)
             return at("layer " + to_string(layer.id), made.error());
         painted.quality = CloneQuality::kRest;
       } else {
-        // Mixed gradients have no membrane of their own: nothing is sooner than dragging.
-        const bool quick = layer.options.mode == BlendMode::kMixed || shape.system->has_membrane(CloneQuality::kDrag);
+        // What is solved on the pixels has nothing that is sooner than dragging.
+        const bool quick = solves_on_pixels(layer) || shape.system->has_membrane(CloneQuality::kDrag);
         if (quick) painted.quality = CloneQuality::kDrag;
-        if (auto made = shape.system->prepare(layer.options.mode, painted.quality, watch); !made)
+        if (auto made = shape.system->prepare(layer.options, painted.quality, watch); !made)
           return at("layer " + to_string(layer.id), made.error());
       }
     }
