@@ -1,7 +1,6 @@
 #include "core/clone/correction.h"
 
 #include "core/clone/guidance.h"
-#include "core/clone/mixed_rows.h"
 
 #include <algorithm>
 #include <span>
@@ -66,37 +65,6 @@ void start_from(const Correction& start, const Mask& mask, MultigridSolve& solve
   }
 }
 
-Result<Correction> solve_on_pixels(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
-                                   const SolveWay& way, int threads, const Watch& watch) {
-  const auto grids = system.pixels(options.screening, threads, watch);
-  if (!grids) return grids.error();
-  std::shared_ptr<const Membrane> membrane;
-  if (way.membrane) {
-    const auto made = system.membrane(*way.membrane, watch);
-    // Where the edge is too long for it, zero must do for a start.
-    if (!made && made.error().code != "clone.too-large") return made.error();
-    if (made) membrane = *made;
-  }
-  const StageTimer timer(watch.times, "clone.solve");
-  MultigridSolve& solve = **grids;
-  const PixelGraph& graph = system.graph();
-  double range = 0;
-  const std::vector<Float4> ring = ring_values(pair, graph, range);
-  if (options.mode != BlendMode::kMixed)
-    set_membrane_side(ring, graph, solve);
-  else if (!set_mixed_side(pair, graph.mask, solve))
-    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
-  if (watch.stopped()) return cancelled();
-  if (membrane)
-    start_from({membrane, membrane->solve(ring), nullptr, 0}, graph.mask, solve);
-  else
-    solve.start_from_zero();
-  const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
-  const auto solved = solve.solve(tolerance, way.least, way.most, watch);
-  if (!solved) return solved.error();
-  return Correction{nullptr, {}, *grids, solved->error};
-}
-
 } // namespace
 
 void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float4>& u) const {
@@ -129,7 +97,39 @@ Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& s
                                     CloneQuality quality, int threads, const Watch& watch) {
   const SolveWay way = choose_way(options, quality);
   if (!way.on_pixels) return span_membrane(pair, system, *way.membrane, watch);
-  return solve_on_pixels(pair, system, options, way, threads, watch);
+  double range = 0;
+  return solve_on_pixels(ring_values(pair, system.graph(), range), read_pair(pair), system, options, quality, threads,
+                         watch);
+}
+
+Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPixels& read, const CloneSystem& system,
+                                   const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
+  const SolveWay way = choose_way(options, quality);
+  const auto grids = system.pixels(options.screening, threads, watch);
+  if (!grids) return grids.error();
+  std::shared_ptr<const Membrane> membrane;
+  if (way.membrane) {
+    const auto made = system.membrane(*way.membrane, watch);
+    // Where the edge is too long for it, zero must do for a start.
+    if (!made && made.error().code != "clone.too-large") return made.error();
+    if (made) membrane = *made;
+  }
+  const StageTimer timer(watch.times, "clone.solve");
+  MultigridSolve& solve = **grids;
+  const PixelGraph& graph = system.graph();
+  if (options.mode != BlendMode::kMixed)
+    set_membrane_side(ring, graph, solve);
+  else if (!set_mixed_side(read, graph.mask, solve))
+    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
+  if (watch.stopped()) return cancelled();
+  if (membrane)
+    start_from({membrane, membrane->solve(ring), nullptr, 0}, graph.mask, solve);
+  else
+    solve.start_from_zero();
+  const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
+  const auto solved = solve.solve(tolerance, way.least, way.most, watch);
+  if (!solved) return solved.error();
+  return Correction{nullptr, {}, *grids, solved->error};
 }
 
 } // namespace oversketch

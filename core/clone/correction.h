@@ -3,6 +3,7 @@
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/clone/clone_system.h"
+#include "core/clone/mixed_rows.h"
 #include "core/clone/placed_pair.h"
 
 #include <optional>
@@ -42,5 +43,11 @@ SolveWay choose_way(const BlendOptions& options, CloneQuality quality);
 /// @errors those of the system's parts; clone.not-finite (without a place); cancelled.
 Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
                                     CloneQuality quality, int threads, const Watch& watch);
+
+/// The same where choose_way says on_pixels, for pictures of any kind.
+/// @param ring  d at the outer pixel of each of the graph's ring edges, in the domain's values.
+/// @param read  the pair; used for mixed gradients.
+Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPixels& read, const CloneSystem& system,
+                                   const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch);
 
 } // namespace oversketch

@@ -4,6 +4,7 @@
 #include "core/clone/correction.h"
 #include "core/clone/live_blend.h"
 #include "core/clone/live_data.h"
+#include "core/clone/live_read.h"
 #include "core/clone/paint.h"
 #include "core/clone/placed_pair.h"
 
@@ -106,47 +107,21 @@ void in_parts(std::span<const LiveRow> rows, int threads, const std::function<vo
   paint(rows);
 }
 
-/// Source and target in float, where the mask lies: for what must be solved on every pixel.
-Result<Correction> solve_in_float(const Raster<Rgba8>& below, const Data& region, Place at, const BlendOptions& options,
-                                  CloneQuality quality, int threads, const Watch& watch) {
-  const PixelGraph& graph = region.system.graph();
-  const Rect box = grown(graph.mask.bounds(), 1);
-  // Of the target what the box covers; its edges are repeated where they are the target's.
-  const int x0 = clamp_to(box.x, at.dx, below.width()), x1 = clamp_to(box.right() - 1, at.dx, below.width());
-  const int y0 = clamp_to(box.y, at.dy, below.height()), y1 = clamp_to(box.bottom() - 1, at.dy, below.height());
-  Raster<Rgba> target(x1 - x0 + 1, y1 - y0 + 1);
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x)
-      target.at(x - x0, y - y0) = from_display(below.at(x, y));
-  WarpedRegion source{box, Raster<Rgba>(box.width, box.height)};
-  const auto unpack = [](std::int16_t v) { return static_cast<float>(v - 32) / LivePixel::kOpaque; };
-  std::size_t k = 0;
-  for (const Mask::Run& run : graph.mask.runs())
-    for (int x = run.x0; x < run.x1; ++x, ++k) {
-      const LivePixel& p = region.pixels[k];
-      source.pixels.at(x - box.x, run.y - box.y) = {unpack(p.r), unpack(p.g), unpack(p.b), unpack(p.a)};
-    }
-  for (std::size_t i = 0; i < graph.ring.size(); ++i)
-    source.pixels.at(graph.ring[i].x - box.x, graph.ring[i].y - box.y) = region.ring[i];
-  return solve_correction(PlacedPair(target, source, at.dx - x0, at.dy - y0, options), region.system, options, quality,
-                          threads, watch);
-}
-
 bool needs_solution(const BlendOptions& options) {
   return options.mode != BlendMode::kNone && (options.strength > 0 || options.feather_px > 0);
 }
 
 /// Whether f = g + u and nothing else.
-bool is_plain_import(const Data& region, const BlendOptions& options) {
-  return region.is_opaque && options.mode == BlendMode::kImport && options.domain == Domain::kEncoded &&
-         options.strength == 1 && options.opacity == 1;
+bool is_plain(const Data& region, const BlendOptions& options) {
+  return region.is_opaque && (options.mode == BlendMode::kImport || options.mode == BlendMode::kMixed) &&
+         options.domain == Domain::kEncoded && options.strength == 1 && options.opacity == 1;
 }
 
 /// @returns the bound on the error, in the domain's values.
 Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const Data& region, Place at,
                            const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
   Correction correction;
-  const bool plain = is_plain_import(region, options);
+  const bool plain = is_plain(region, options);
   const bool solves = needs_solution(options), on_pixels = solves && choose_way(options, quality).on_pixels;
   if (solves && !on_pixels) {
     const auto made = region.system.membrane(quality, watch);
@@ -157,7 +132,9 @@ Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const
     correction.values = correction.membrane->solve(ring.values);
     correction.error = correction.membrane->error_share() * ring.range;
   } else if (solves) {
-    auto solved = solve_in_float(below, region, at, options, quality, threads, watch);
+    const RingValues ring = ring_values(below, region, at, options, 1);
+    auto solved = solve_on_pixels(ring.values, read_live(below, region, at.dx, at.dy, options), region.system, options,
+                                  quality, threads, watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
   }
@@ -165,8 +142,8 @@ Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const
 
   const StageTimer timer(watch.times, "clone.paint");
   const std::vector<LiveRow> rows = list_rows(below, out, region.system.graph(), at);
-  if (plain && correction.membrane) {
-    const RowPainting plain_painting{*correction.membrane, correction.values, region.pixels.data()};
+  if (plain) {
+    const RowPainting plain_painting{correction, region.system.mask(), region.pixels.data()};
     const auto paint = has_avx2() ? paint_rows_avx2 : paint_rows;
     in_parts(rows, threads, [&](std::span<const LiveRow> part) { paint(plain_painting, part); });
     return correction.error;

@@ -16,6 +16,14 @@ struct LiveRegion::Data {
   std::vector<LivePixel> pixels;
   /// The source at the outer pixel of each of the graph's ring edges.
   std::vector<Rgba> ring;
+  /// Where the ring's pixels are, row by row, each once.
+  struct RingPlace {
+    int y = 0;
+    int x = 0;
+    /// Of `ring`.
+    int edge = 0;
+  };
+  mutable Lazy<std::vector<RingPlace>> ring_places;
   /// Whether all pixels are.
   bool is_opaque = true;
   /// Of the domains but kEncoded, made when they are first used.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -136,7 +137,17 @@ struct PlainPainter {
 #endif
 
 template <class Painter>
-[[gnu::always_inline]] inline void paint_row(const RowPainting& painting, const LiveRow& row) {
+[[gnu::always_inline]] inline void paint_row(const RowPainting& painting, const LiveRow& row,
+                                             std::vector<Float4>& line) {
+  const Correction& correction = painting.correction;
+  if (!correction.membrane) {
+    correction.read(row.run, painting.mask.runs()[row.run], line);
+    Float4* const u = line.data() + row.skipped;
+    for (int i = 0; i < row.count; ++i)
+      u[i] = LivePixel::kOpaque * u[i];
+    Painter::pixels(row.out, painting.source + row.pixel, u, row.count, row.count);
+    return;
+  }
   int skipped = row.skipped, room = row.count;
   const LivePixel* g = painting.source + row.pixel;
   Rgba8* out = row.out;
@@ -152,8 +163,8 @@ template <class Painter>
     out += count;
     room -= count;
   };
-  painting.membrane.walk(
-      painting.values, row.run, row.y,
+  correction.membrane->walk(
+      correction.values, row.run, row.y,
       [&](const Float4* at, int count) {
         at += clip(count);
         if (count > 0) Painter::pixels(out, g, at, count, room);
@@ -184,8 +195,9 @@ PackedKind pack_pixels(const Rgba* from, std::size_t count, LivePixel* to) {
 }
 
 void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows) {
+  std::vector<Float4> line;
   for (const LiveRow& row : rows)
-    paint_row<PlainPainter>(painting, row);
+    paint_row<PlainPainter>(painting, row, line);
 }
 
 #if defined(__x86_64__)
@@ -196,8 +208,9 @@ bool has_avx2() {
 
 [[gnu::target("avx2")]] void paint_rows_avx2(const RowPainting& painting, std::span<const LiveRow> rows) {
   CHECK(has_avx2(), "a processor with AVX2");
+  std::vector<Float4> line;
   for (const LiveRow& row : rows)
-    paint_row<AvxPainter>(painting, row);
+    paint_row<AvxPainter>(painting, row, line);
 }
 
 #else

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/clone/membrane.h"
+#include "core/clone/correction.h"
 #include "core/image/display.h"
 
 #include <cstdint>
@@ -43,11 +43,11 @@ struct LiveRow {
   Rgba8* out = nullptr;
 };
 
-/// Paints g + u on opaque pixels, u in units of LivePixel.
+/// Paints g + u on opaque pixels: u of a membrane in units of LivePixel, else 1 for level 255.
 /// @param source  by pixel number.
 struct RowPainting {
-  const Membrane& membrane;
-  const MembraneValues& values;
+  const Correction& correction;
+  const Mask& mask;
   const LivePixel* source;
 };
 

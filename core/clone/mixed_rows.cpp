@@ -12,12 +12,12 @@ namespace {
 /// The planes of a row, for all pixels that the mask's pixels in it and in the rows beside it touch.
 class PlaneRows {
 public:
-  PlaneRows(const PlacedPair& pair, const Mask& mask) : pair_(pair), around_(grown(mask)) {}
+  PlaneRows(const ReadPixels& read, const Mask& mask) : read_(read), around_(grown(mask)) {}
 
   /// From x on, where x and what follows to the end of a run of the mask next to it were asked for from left to right.
   PixelPlanes at(int x, int y) {
     Row& row = rows_[static_cast<std::size_t>(y & 3)];
-    if (row.y != y || row.stride == 0) read(y, row);
+    if (row.y != y || row.stride == 0) load(y, row);
     const std::vector<Mask::Run>& runs = around_.runs();
     while (runs[row.cursor].x1 <= x) {
       row.offset += static_cast<std::size_t>(runs[row.cursor].x1 - runs[row.cursor].x0);
@@ -43,7 +43,7 @@ private:
     std::size_t offset = 0;
   };
 
-  void read(int y, Row& row) {
+  void load(int y, Row& row) {
     const std::vector<Mask::Run>& runs = around_.runs();
     auto run = std::lower_bound(runs.begin(), runs.end(), y, [](const Mask::Run& a, int value) { return a.y < value; });
     row.y = y;
@@ -54,50 +54,10 @@ private:
     row.planes.resize(6 * row.stride);
     float* out = row.planes.data();
     for (; run != runs.end() && run->y == y; out += run->x1 - run->x0, ++run)
-      if (!pair_.is_plain() || !read_opaque(*run, out, row.stride)) read_any(*run, out, row.stride);
+      read_(*run, out, row.stride);
   }
 
-  /// @returns whether all are opaque; else what was written is not meant.
-  bool read_opaque(const Mask::Run& run, float* out, std::size_t stride) const {
-    int translucent = copy(&pair_.source_pixel(run.x0, run.y), run.x1 - run.x0, out, stride);
-    float* const target = out + 3 * stride;
-    // The target's pixels follow each other but where it ends.
-    for (int x = run.x0; x < run.x1;) {
-      const int from = pair_.target_x(x), last = pair_.target_x(run.x1 - 1);
-      const bool moves = x + 1 < run.x1 && pair_.target_x(x + 1) == from + 1;
-      const int count = moves ? last - from + 1 : 1;
-      translucent += copy(&pair_.target_pixel(x, run.y), count, target + (x - run.x0), stride);
-      x += count;
-    }
-    return translucent == 0;
-  }
-
-  /// @returns how many are not opaque.
-  static int copy(const Rgba* from, int count, float* out, std::size_t stride) {
-    float* __restrict const red = out;
-    float* __restrict const green = out + stride;
-    float* __restrict const blue = out + 2 * stride;
-    int translucent = 0;
-    for (int i = 0; i < count; ++i) {
-      red[i] = from[i].r;
-      green[i] = from[i].g;
-      blue[i] = from[i].b;
-      translucent += from[i].a != 1.0f;
-    }
-    return translucent;
-  }
-
-  void read_any(const Mask::Run& run, float* out, std::size_t stride) const {
-    for (int x = run.x0; x < run.x1; ++x, ++out) {
-      const PlacedPair::Values values = pair_.at(x, run.y);
-      for (std::size_t k = 0; k < 3; ++k) {
-        out[k * stride] = static_cast<float>(values.source.v[k]);
-        out[(3 + k) * stride] = static_cast<float>(values.target.v[k]);
-      }
-    }
-  }
-
-  const PlacedPair& pair_;
+  const ReadPixels& read_;
   Mask around_;
   std::array<Row, 4> rows_;
 };
@@ -155,8 +115,8 @@ PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) {
 /// Sums up b, row by row from the top.
 class MixedSides {
 public:
-  MixedSides(const PlacedPair& pair, const Mask& mask, MultigridSolve& solve)
-      : runs_(mask.runs()), solve_(solve), rows_(pair, mask) {}
+  MixedSides(const ReadPixels& read, const Mask& mask, MultigridSolve& solve)
+      : runs_(mask.runs()), solve_(solve), rows_(read, mask) {}
 
   /// @returns whether all is finite.
   bool run() {
@@ -254,10 +214,67 @@ private:
   bool is_finite_ = true;
 };
 
+/// Reads a placed pair.
+class PairReader {
+public:
+  explicit PairReader(const PlacedPair& pair) : pair_(pair) {}
+
+  void operator()(const Mask::Run& run, float* out, std::size_t stride) const {
+    if (!pair_.is_plain() || !read_opaque(run, out, stride)) read_any(run, out, stride);
+  }
+
+private:
+  /// @returns whether all are opaque; else what was written is not meant.
+  bool read_opaque(const Mask::Run& run, float* out, std::size_t stride) const {
+    int translucent = copy(&pair_.source_pixel(run.x0, run.y), run.x1 - run.x0, out, stride);
+    float* const target = out + 3 * stride;
+    // The target's pixels follow each other but where it ends.
+    for (int x = run.x0; x < run.x1;) {
+      const int from = pair_.target_x(x), last = pair_.target_x(run.x1 - 1);
+      const bool moves = x + 1 < run.x1 && pair_.target_x(x + 1) == from + 1;
+      const int count = moves ? last - from + 1 : 1;
+      translucent += copy(&pair_.target_pixel(x, run.y), count, target + (x - run.x0), stride);
+      x += count;
+    }
+    return translucent == 0;
+  }
+
+  /// @returns how many are not opaque.
+  static int copy(const Rgba* from, int count, float* out, std::size_t stride) {
+    float* __restrict const red = out;
+    float* __restrict const green = out + stride;
+    float* __restrict const blue = out + 2 * stride;
+    int translucent = 0;
+    for (int i = 0; i < count; ++i) {
+      red[i] = from[i].r;
+      green[i] = from[i].g;
+      blue[i] = from[i].b;
+      translucent += from[i].a != 1.0f;
+    }
+    return translucent;
+  }
+
+  void read_any(const Mask::Run& run, float* out, std::size_t stride) const {
+    for (int x = run.x0; x < run.x1; ++x, ++out) {
+      const PlacedPair::Values values = pair_.at(x, run.y);
+      for (std::size_t k = 0; k < 3; ++k) {
+        out[k * stride] = static_cast<float>(values.source.v[k]);
+        out[(3 + k) * stride] = static_cast<float>(values.target.v[k]);
+      }
+    }
+  }
+
+  const PlacedPair& pair_;
+};
+
 } // namespace
 
-bool set_mixed_side(const PlacedPair& pair, const Mask& mask, MultigridSolve& solve) {
-  return MixedSides(pair, mask, solve).run();
+bool set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve) {
+  return MixedSides(read, mask, solve).run();
+}
+
+ReadPixels read_pair(const PlacedPair& pair) {
+  return PairReader(pair);
 }
 
 } // namespace oversketch

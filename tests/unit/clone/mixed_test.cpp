@@ -100,7 +100,7 @@ TEST(Mixed, HasTheSidesOfTheDefinitionOnAnyMask) {
       const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
       MultigridSolve solve(*grids);
       const PlacedPair pair(scene.target, scene.source, scene.dx, scene.dy, options);
-      ASSERT_TRUE(set_mixed_side(pair, mask, solve)) << name;
+      ASSERT_TRUE(set_mixed_side(read_pair(pair), mask, solve)) << name;
       ASSERT_TRUE(solve.solve(0.01 / 255, 1, 60).ok());
       const Correction correction{nullptr, {}, std::make_shared<MultigridSolve>(std::move(solve)), 0};
       EXPECT_LT(255 * error_of(correction, exact_correction(scene, options), mask), kind == 3 ? 0.1 : 0.02)
@@ -127,7 +127,7 @@ TEST(Mixed, SeesWhatIsNotFinite) {
             const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
             MultigridSolve solve(*grids);
             const PlacedPair pair(scene.target, scene.source, scene.dx, scene.dy, with_mode(BlendMode::kMixed));
-            EXPECT_EQ(set_mixed_side(pair, mask, solve), !counts) << x << " " << y;
+            EXPECT_EQ(set_mixed_side(read_pair(pair), mask, solve), !counts) << x << " " << y;
           }
       }
 }
