@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +26,9 @@ constexpr int kLastSweeps = 4;
 /// Corrections this small, 0.03 levels, may be float's rounding, which does not shrink.
 constexpr double kFloor = 1e-4;
 
+/// Above, what a region may take, values included; fewer pixels than an int counts.
+constexpr std::int64_t kMostBytes = 8'000'000'000, kBytesPerPixel = 40;
+
 } // namespace
 
 struct MaskMultigrid::Data {
@@ -40,9 +42,11 @@ struct MaskMultigrid::Data {
 Result<MaskMultigrid> MaskMultigrid::make(const Mask& mask, double screening, const Watch& watch) {
   CHECK(screening >= 0, "screening is not negative");
   if (mask.empty()) return Error{"clone.empty-mask", "The region covers no pixel: make it larger.", ""};
-  // Values are counted in ints as well.
-  if (mask.count() > std::numeric_limits<int>::max() / kGridChannels)
-    return Error{"clone.too-large", "The region has " + std::to_string(mask.count()) + " pixels: make it smaller.", ""};
+  if (mask.count() > kMostBytes / kBytesPerPixel)
+    return Error{"clone.too-large",
+                 "The region has " + std::to_string(mask.count()) + " pixels, and blending it would take " +
+                     std::to_string(mask.count() / 1'000'000 * kBytesPerPixel) + " MB of memory: make it smaller.",
+                 ""};
   const StageTimer timer(watch.times, "clone.grids");
   const auto data = std::make_shared<Data>();
   data->screening = screening;
@@ -291,6 +295,9 @@ void MultigridSolve::get(std::size_t run, std::span<Float4> values) const {
 }
 
 Result<MultigridSolve::Outcome> MultigridSolve::solve(double tolerance, int least, int most, const Watch& watch) {
+  // What was learnt before is forgotten: the same b and start give the same bits, whatever was solved in between.
+  state_->is_tricky = state_->data->is_tricky;
+  state_->slowness = 0;
   return state_->last() == 0 ? state_->sweep(tolerance, least, most, watch)
                              : state_->cycle_until(tolerance, least, most, watch);
 }

@@ -23,7 +23,7 @@ namespace oversketch {
 class MaskMultigrid {
 public:
   /// @param screening  λ ≥ 0, per px².
-  /// @errors clone.empty-mask; clone.too-large (more than INT_MAX pixels); cancelled.
+  /// @errors clone.empty-mask; clone.too-large (above 200 million pixels, 8 GB); cancelled.
   /// @cost O(runs + perimeter).  Stores 8 bytes a run, 4 a row, and a little along the boundary.
   static Result<MaskMultigrid> make(const Mask& mask, double screening = 0, const Watch& watch = {});
 

@@ -69,7 +69,7 @@ MultigridSolve make_solve(const Mask& mask, double screening = 0) {
 TEST(Multigrid, RefusesEmptyAndHugeMasksAndStops) {
   EXPECT_EQ(MaskMultigrid::make(Mask()).error().code, "clone.empty-mask");
   std::vector<Mask::Run> huge;
-  for (int y = 0; y < 1000; ++y)
+  for (int y = 0; y < 201; ++y)
     huge.push_back({y, 0, 1'000'000});
   EXPECT_EQ(MaskMultigrid::make(Mask(huge)).error().code, "clone.too-large");
   const Mask square = rect_mask({0, 0, 200, 200});
@@ -197,6 +197,28 @@ TEST(Multigrid, GoesOnFromWhereItIsTold) {
   // From zero again.
   solve.start_from_zero();
   EXPECT_GT(solve.solve(0.02 * kLevel, 1, 9)->cycles, 2);
+}
+
+TEST(Multigrid, ForgetsWhatItSolvedBefore) {
+  for (const Mask& mask : {disc_mask(0, 0, 60), holed_mask(150, 16, 0)}) {
+    const std::vector<Channels> b = noise_side(mask, 9);
+    std::vector<Float4> first;
+    MultigridSolve solve = make_solve(mask);
+    for (const int seed : {0, 10, 11}) {
+      if (seed > 0) {
+        set_side(solve, mask, noise_side(mask, static_cast<unsigned>(seed)));
+        ASSERT_TRUE(solve.solve(0, 5, 5).ok());
+      }
+      set_side(solve, mask, b);
+      solve.start_from_zero();
+      ASSERT_TRUE(solve.solve(0, 5, 5).ok());
+      const std::vector<Float4> u = get(solve, mask);
+      if (first.empty()) first = u;
+      for (std::size_t i = 0; i < u.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          ASSERT_EQ(u[i][k], first[i][k]);
+    }
+  }
 }
 
 TEST(Multigrid, OfNothingIsNothing) {
