@@ -1,7 +1,7 @@
 #include "core/warp/cell_inverse.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace oversketch {
 
@@ -19,108 +19,113 @@ CellInverse::CellInverse(const QuadMesh& mesh, const Points& deformed, int cell)
     positive += turn[k] > 0;
     negative += turn[k] < 0;
   }
-  convex_ = positive == 4 || negative == 4;
-  if (!convex_) {
-    // The diagonal through the one corner that turns the other way keeps both triangles inside the cell.
-    int from = 0;
-    for (int k = 0; k < 4; ++k)
-      if ((positive == 3 && !(turn[static_cast<std::size_t>(k)] > 0)) ||
-          (negative == 3 && !(turn[static_cast<std::size_t>(k)] < 0)))
-        from = k;
-    make_triangles(x, s, from);
+  if (positive == 4 || negative == 4) {
+    mirrored_ = negative == 4;
+    const BilinearForm map = form(0, x);
+    p0_ = map.o, a_ = map.a, b_ = map.b, c_ = map.c;
+    area_ = cross(a_, b_);
+    source_[0] = form(0, s);
+    set_gentle();
     return;
   }
-  if (negative == 4) {
-    std::swap(x[1], x[3]);
-    std::swap(s[1], s[3]);
-  }
-  p0_ = x[0], a_ = x[1] - x[0], b_ = x[3] - x[0], c_ = x[0] - x[1] + x[2] - x[3];
-  s0_ = s[0], sa_ = s[1] - s[0], sb_ = s[3] - s[0], sc_ = s[0] - s[1] + s[2] - s[3];
-  area_ = cross(a_, b_);
+  // The diagonal through the one corner that turns the other way keeps both triangles inside the cell.
+  for (int k = 0; k < 4; ++k)
+    if ((positive == 3 && !(turn[static_cast<std::size_t>(k)] > 0)) ||
+        (negative == 3 && !(turn[static_cast<std::size_t>(k)] < 0)))
+      diagonal_from_ = k;
+  const auto corner = [&](int k) { return x[static_cast<std::size_t>((diagonal_from_ + k) % 4)]; };
+  triangles_ = {make_triangle(corner(0), corner(1), corner(2)), make_triangle(corner(0), corner(2), corner(3))};
+  source_ = {form(0, s), form(1, s)};
 }
 
-CellInverse::Affine CellInverse::make_affine(const std::array<Point, 4>& x, const std::array<Point, 4>& s, int i, int j,
-                                             int k) {
-  const auto at = [](const std::array<Point, 4>& points, int n) { return points[static_cast<std::size_t>(n & 3)]; };
-  const Point e1 = at(x, j) - at(x, i), e2 = at(x, k) - at(x, i);
-  Affine out;
-  out.from = at(x, i);
-  out.origin = at(s, i);
+void CellInverse::set_gentle() {
+  // det J is linear in u and v: a × b, a × (b + c), (a + c) × b and their sum less the first at the corners.
+  const double at_u = cross(a_ + c_, b_), at_v = cross(a_, b_ + c_), opposite = at_u + at_v - area_;
+  const double least = std::min({at_u, at_v, opposite}), most = std::max({at_u, at_v, opposite});
+  const BilinearForm& s = source_[0];
+  constexpr double kParallelogram = 0x1p-30;
+  gentle_ = 4 * least >= area_ && most <= 4 * area_ && std::abs(s.c.x) + std::abs(s.c.y) <= kParallelogram;
+  if (!gentle_) return;
+  step_e_ = Point{c_.y, -c_.x} / area_;
+  step_u_ = Point{b_.y, -b_.x} / area_;
+  step_v_ = Point{-a_.y, a_.x} / area_;
+  step_x_ = step_u_.x * s.a + step_v_.x * s.b;
+  step_y_ = step_u_.y * s.a + step_v_.y * s.b;
+  kappa_ = 4 * cross(c_, b_) / area_;
+}
+
+CellInverse::Triangle CellInverse::make_triangle(Point a, Point b, Point c) {
+  const Point e1 = b - a, e2 = c - a;
   const double area = cross(e1, e2);
-  out.weight_1 = Point{e2.y, -e2.x} / area;
-  out.weight_2 = Point{-e1.y, e1.x} / area;
+  Triangle out{false, a, Point{e2.y, -e2.x} / area, Point{-e1.y, e1.x} / area};
   out.usable = area != 0 && is_finite(out.weight_1) && is_finite(out.weight_2);
-  const Point d1 = at(s, j) - at(s, i), d2 = at(s, k) - at(s, i);
-  out.column_x = out.weight_1.x * d1 + out.weight_2.x * d2;
-  out.column_y = out.weight_1.y * d1 + out.weight_2.y * d2;
   return out;
 }
 
-void CellInverse::make_triangles(const std::array<Point, 4>& x, const std::array<Point, 4>& s, int diagonal_from) {
-  const int d = diagonal_from;
-  triangles_ = {make_affine(x, s, d, d + 1, d + 2), make_affine(x, s, d, d + 2, d + 3)};
-  s0_ = 0.25 * (s[0] + s[1] + s[2] + s[3]);
-}
-
-double CellInverse::Affine::least_weight(Point p) const {
+double CellInverse::Triangle::least_weight(Point p) const {
   if (!usable) return -HUGE_VAL;
   const double w1 = dot(weight_1, p - from), w2 = dot(weight_2, p - from);
   return std::min(1 - w1 - w2, std::min(w1, w2));
 }
 
-const CellInverse::Affine& CellInverse::triangle_at(Point p) const {
-  return triangles_[1].least_weight(p) > triangles_[0].least_weight(p) ? triangles_[1] : triangles_[0];
+BilinearForm CellInverse::form(int part, const std::array<Point, 4>& at) const {
+  if (is_convex()) {
+    const Point &second = at[mirrored_ ? 3 : 1], &fourth = at[mirrored_ ? 1 : 3];
+    return {at[0], second - at[0], fourth - at[0], at[0] - second + at[2] - fourth};
+  }
+  const auto corner = [&](int k) { return at[static_cast<std::size_t>((diagonal_from_ + k) % 4)]; };
+  return {corner(0), corner(1 + part) - corner(0), corner(2 + part) - corner(0), {}};
+}
+
+RowInverse CellInverse::row(int x, int y) const {
+  const Point q = Point{x + 0.5, y + 0.5} - p0_;
+  return {area_ + cross(q, c_), c_.y, cross(a_, q), -a_.y, cross(q, b_), b_.y, 2 * area_, 4 * cross(c_, b_)};
+}
+
+GentleRow CellInverse::gentle_row(int x, int y) const {
+  const Point q = Point{x + 0.5, y + 0.5} - p0_;
+  const BilinearForm& s = source_[0];
+  const auto single = [](double value) { return static_cast<float>(value); };
+  return {s.o + q.x * step_x_ + q.y * step_y_,
+          step_x_,
+          single(dot(q, step_e_)),
+          single(step_e_.x),
+          single(dot(q, step_u_)),
+          single(step_u_.x),
+          single(dot(q, step_v_)),
+          single(step_v_.x),
+          single(kappa_),
+          single(s.a.x),
+          single(s.a.y),
+          single(s.b.x),
+          single(s.b.y)};
+}
+
+CellInverse::Place CellInverse::locate(Point p) const {
+  if (!is_convex()) {
+    const int part = triangles_[1].least_weight(p) > triangles_[0].least_weight(p) ? 1 : 0;
+    const Triangle& triangle = triangles_[static_cast<std::size_t>(part)];
+    if (!triangle.usable) return {part, 1.0 / 3, 1.0 / 3};
+    return {part, dot(triangle.weight_1, p - triangle.from), dot(triangle.weight_2, p - triangle.from)};
+  }
+  const Point q = p - p0_;
+  const double b = area_ + cross(q, c_);
+  const double s = std::sqrt(std::max(0.0, b * b - 4 * cross(c_, b_) * cross(q, a_)));
+  return {0, 2 * cross(q, b_) / (2 * area_ - b + s), 2 * cross(a_, q) / (b + s)};
+}
+
+Point CellInverse::growth(const Place& place, Point step) const {
+  if (!is_convex()) {
+    const Triangle& triangle = triangles_[static_cast<std::size_t>(place.part)];
+    return triangle.usable ? Point{dot(triangle.weight_1, step), dot(triangle.weight_2, step)} : Point{};
+  }
+  const Point along_u = a_ + place.v * c_, along_v = b_ + place.u * c_;
+  return Point{cross(step, along_v), cross(along_u, step)} / cross(along_u, along_v);
 }
 
 Point CellInverse::operator()(Point p) const {
-  if (!convex_) {
-    const Affine& triangle = triangle_at(p);
-    return triangle.usable ? triangle(p) : s0_;
-  }
-  const Point q = p - p0_;
-  const double b = area_ + cross(q, c_);
-  const double s = std::sqrt(std::max(0.0, b * b - 4 * cross(c_, b_) * cross(q, a_)));
-  const double v = 2 * cross(a_, q) / (b + s), u = 2 * cross(q, b_) / (2 * area_ - b + s);
-  return s0_ + u * sa_ + v * sb_ + (u * v) * sc_;
-}
-
-void CellInverse::map_row(int x, int y, int count, double* source_x, double* source_y) const {
-  const Point first{x + 0.5, y + 0.5};
-  if (!convex_) {
-    for (int i = 0; i < count; ++i) {
-      const Point s = (*this)({first.x + i, first.y});
-      source_x[i] = s.x, source_y[i] = s.y;
-    }
-    return;
-  }
-  // The three crossings are affine along the row, which leaves one root and one division a pixel.
-  const Point q = first - p0_;
-  const double b0 = area_ + cross(q, c_), v0 = cross(a_, q), u0 = cross(q, b_);
-  const double db = c_.y, dv = -a_.y, du = b_.y, area2 = 2 * area_, k = 4 * cross(c_, b_);
-  for (int i = 0; i < count; ++i) {
-    const double b = b0 + i * db, vn = v0 + i * dv, un = u0 + i * du;
-    const double s = std::sqrt(std::max(0.0, b * b + k * vn));
-    const double dv_part = b + s, du_part = area2 - b + s;
-    const double both = 2 / (dv_part * du_part);
-    const double v = vn * du_part * both, u = un * dv_part * both;
-    source_x[i] = s0_.x + u * sa_.x + v * sb_.x + (u * v) * sc_.x;
-    source_y[i] = s0_.y + u * sa_.y + v * sb_.y + (u * v) * sc_.y;
-  }
-}
-
-Point CellInverse::continued(Point p, Point step) const {
-  if (!convex_) {
-    const Affine& triangle = triangle_at(p);
-    return triangle.usable ? triangle(p + step) : s0_;
-  }
-  const Point q = p - p0_;
-  const double b = area_ + cross(q, c_);
-  const double s = std::sqrt(std::max(0.0, b * b - 4 * cross(c_, b_) * cross(q, a_)));
-  const double v = 2 * cross(a_, q) / (b + s), u = 2 * cross(q, b_) / (2 * area_ - b + s);
-  const Point along_u = a_ + v * c_, along_v = b_ + u * c_;
-  const double det = cross(along_u, along_v);
-  const double du = cross(step, along_v) / det, dv = cross(along_u, step) / det;
-  return s0_ + u * sa_ + v * sb_ + (u * v) * sc_ + du * (sa_ + v * sc_) + dv * (sb_ + u * sc_);
+  const Place place = locate(p);
+  return source(place.part)(place.u, place.v);
 }
 
 } // namespace oversketch

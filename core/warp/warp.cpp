@@ -1,12 +1,12 @@
 #include "core/warp/warp.h"
 
 #include "core/base/check.h"
-#include "core/warp/cell_inverse.h"
-#include "core/warp/cell_map.h"
-#include "core/warp/sample.h"
+#include "core/base/parallel.h"
+#include "core/warp/cell_spans.h"
+#include "core/warp/nearest_covered.h"
+#include "core/warp/region_painter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -15,16 +15,9 @@
 namespace oversketch {
 namespace {
 
-constexpr int kChunk = BilinearSampler::kMostAtOnce;
-
-Mask with_neighbours(const Mask& mask) {
-  std::vector<Mask::Run> runs;
-  runs.reserve(3 * mask.runs().size());
-  for (const Mask::Run& run : mask.runs())
-    for (int dy = -1; dy <= 1; ++dy)
-      runs.push_back({run.y + dy, run.x0 - 1, run.x1 + 1});
-  return Mask(std::move(runs));
-}
+constexpr int kNoCell = -1;
+/// Rows that one thread takes at a time.
+constexpr int kBandRows = 64;
 
 Result<Rect> region_rect(const Image& source, const Mask& mask) {
   if (mask.empty()) return Error{"warp.empty-mask", "The deformed region covers no pixel: make it larger.", ""};
@@ -53,109 +46,128 @@ void check_mesh(const QuadMesh& mesh, const Points& deformed) {
       CHECK(vertex >= 0 && static_cast<std::size_t>(vertex) < deformed.size(), "cell names a vertex that is not there");
 }
 
-/// Draws the pixels of the grown mask from a cell map of the region's rect.
-class RegionPainter {
+/// Draws the pixels of the grown mask, band by band, and what no cell covers at the end.
+class BandedWarp {
 public:
-  RegionPainter(const Image& source, const QuadMesh& mesh, const Points& deformed, const Raster<int>& cells,
-                WarpedRegion& out)
-      : sample_(source.pixels()), cells_(cells), out_(out) {
-    inverses_.reserve(mesh.cells.size());
-    for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell)
-      inverses_.emplace_back(mesh, deformed, cell);
+  BandedWarp(const RegionPainter& painter, const CellRaster& raster, const Mask& wanted, WarpedRegion& out)
+      : painter_(painter),
+        raster_(raster),
+        wanted_(wanted),
+        out_(out),
+        bands_(static_cast<std::size_t>((out.rect.height + kBandRows - 1) / kBandRows)) {}
+
+  int count() const { return static_cast<int>(bands_.size()); }
+
+  /// Bands may be drawn in any order, by any thread.
+  void draw(int index) {
+    Band& band = bands_[static_cast<std::size_t>(index)];
+    const int y0 = out_.rect.y + index * kBandRows, y1 = std::min(y0 + kBandRows, out_.rect.bottom());
+    band.spans = raster_.rows(y0, y1);
+    const auto row_is_before = [](int y) { return [y](const Mask::Run& run) { return run.y < y; }; };
+    const auto first = std::ranges::partition_point(wanted_.runs(), row_is_before(y0));
+    const auto end = std::ranges::partition_point(wanted_.runs(), row_is_before(y1));
+    clear_between({first, end}, y0, y1);
+    band.uncovered = painter_.paint(std::span(first, end), band.spans, out_);
   }
 
-  /// Uncovered pixels get an arbitrary colour; returns whether there were any.
-  bool paint_covered(const Mask::Run& run) {
-    bool all = true;
-    for (int x = run.x0; x < run.x1; x += kChunk)
-      all &= paint_chunk(x, std::min(run.x1, x + kChunk), run.y);
-    return !all;
+  bool has_cells() const {
+    return std::ranges::any_of(bands_, [](const Band& band) { return !band.spans.empty(); });
   }
 
-  void paint_uncovered(const Mask::Run& run) {
-    for (int x = run.x0; x < run.x1; ++x) {
-      const Pixel at{x - out_.rect.x, run.y - out_.rect.y};
-      if (cells_.at(at.x, at.y) != kNoCell) continue;
-      const Pixel near = nearest_covered(at);
-      const CellInverse& inverse = inverses_[static_cast<std::size_t>(cells_.at(near.x, near.y))];
-      const Point from{out_.rect.x + near.x + 0.5, out_.rect.y + near.y + 0.5};
-      const Point source = inverse.continued(from, {at.x - near.x + 0.0, at.y - near.y + 0.0});
-      out_.pixels.at(at.x, at.y) = sample_(source.x, source.y);
-    }
+  /// After all bands.
+  void draw_uncovered() {
+    for (const Band& band : bands_)
+      for (const Mask::Run& run : band.uncovered)
+        for (int x = run.x0; x < run.x1; ++x) {
+          const Pixel near = nearest_covered({x, run.y});
+          pixel(x, run.y) = painter_.paint_continued(cell_at(near), {near.x + 0.5, near.y + 0.5},
+                                                     {x - near.x + 0.0, run.y - near.y + 0.0});
+        }
   }
 
 private:
-  /// Within the rect.
+  struct Band {
+    CellSpans spans;
+    std::vector<Mask::Run> uncovered;
+  };
   struct Pixel {
     int x = 0;
     int y = 0;
   };
 
+  /// Sets the pixels of some rows that no run has.
+  void clear_between(std::span<const Mask::Run> runs, int y0, int y1) {
+    auto run = runs.begin();
+    for (int y = y0; y < y1; ++y) {
+      const std::span<Rgba> row = out_.pixels.row(y - out_.rect.y);
+      auto from = row.begin();
+      for (; run != runs.end() && run->y == y; ++run) {
+        std::fill(from, row.begin() + (run->x0 - out_.rect.x), Rgba{0, 0, 0, 0});
+        from = row.begin() + (run->x1 - out_.rect.x);
+      }
+      std::fill(from, row.end(), Rgba{0, 0, 0, 0});
+    }
+  }
+
+  Rgba& pixel(int x, int y) { return out_.pixels.at(x - out_.rect.x, y - out_.rect.y); }
+
+  int cell_at(Pixel p) const {
+    if (!out_.rect.contains(p.x, p.y)) return kNoCell;
+    const auto row = bands_[static_cast<std::size_t>((p.y - out_.rect.y) / kBandRows)].spans.row(p.y);
+    const auto span = std::ranges::partition_point(row, [&](const CellSpan& s) { return s.x1 <= p.x; });
+    return span != row.end() && span->x0 <= p.x ? span->cell : kNoCell;
+  }
+
   Pixel nearest_covered(Pixel at) {
     // Nearly always a neighbour: cells reach beyond the outline.
-    constexpr std::array<std::pair<int, int>, 8> kSteps = {
-        {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
     for (const auto& [dx, dy] : kSteps)
-      if (cells_.rect().contains(at.x + dx, at.y + dy) && cells_.at(at.x + dx, at.y + dy) != kNoCell)
-        return {at.x + dx, at.y + dy};
-    if (nearest_.empty()) nearest_ = find_nearest_covered(cells_);
-    const int index = nearest_.at(at.x, at.y);
-    return {index % out_.rect.width, index / out_.rect.width};
+      if (const Pixel near{at.x + dx, at.y + dy}; cell_at(near) != kNoCell) return near;
+    if (nearest_.empty()) nearest_ = find_nearest_covered(covered());
+    const int index = nearest_.at(at.x - out_.rect.x, at.y - out_.rect.y);
+    return {out_.rect.x + index % out_.rect.width, out_.rect.y + index / out_.rect.width};
   }
 
-  bool paint_chunk(int x0, int x1, int y) {
-    std::array<double, kChunk> source_x, source_y;
-    const int* const cells = &cells_.at(x0 - out_.rect.x, y - out_.rect.y);
-    const int count = x1 - x0;
-    bool all = true;
-    for (int i = 0, end = 0; i < count; i = end) {
-      while (end < count && cells[end] == cells[i])
-        ++end;
-      const auto at = static_cast<std::size_t>(i);
-      if (cells[i] == kNoCell) {
-        all = false;
-        std::fill_n(&source_x[at], end - i, 0.0);
-        std::fill_n(&source_y[at], end - i, 0.0);
-      } else {
-        inverses_[static_cast<std::size_t>(cells[i])].map_row(x0 + i, y, end - i, &source_x[at], &source_y[at]);
-      }
-    }
-    sample_.sample_row(count, source_x.data(), source_y.data(), &out_.pixels.at(x0 - out_.rect.x, y - out_.rect.y));
-    return all;
+  Raster<char> covered() const {
+    Raster<char> covered(out_.rect.width, out_.rect.height, 0);
+    for (int y = 0; y < out_.rect.height; ++y)
+      for (const CellSpan& span : bands_[static_cast<std::size_t>(y / kBandRows)].spans.row(out_.rect.y + y))
+        std::fill(&covered.at(span.x0 - out_.rect.x, y), &covered.at(span.x0 - out_.rect.x, y) + (span.x1 - span.x0), 1);
+    return covered;
   }
 
-  BilinearSampler sample_;
-  std::vector<CellInverse> inverses_;
-  const Raster<int>& cells_;
+  const RegionPainter& painter_;
+  const CellRaster& raster_;
+  const Mask& wanted_;
   WarpedRegion& out_;
+  std::vector<Band> bands_;
   /// Made when a pixel is found that has no covered neighbour.
   Raster<int> nearest_;
 };
 
 } // namespace
 
-Result<WarpedRegion> warp_region(const Image& source, const QuadMesh& mesh, const Points& deformed, const Mask& mask,
-                                 const Watch& watch, const Mask* source_region) {
+Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
+                                 const Mask& mask, const Watch& watch, const Mask* source_region,
+                                 const WarpOptions& options) {
   const StageTimer timer(watch.times, "warp");
   check_mesh(mesh, deformed);
-  const Result<Rect> rect = region_rect(source, mask);
+  const Result<Rect> rect = region_rect(source.image(), mask);
   if (!rect) return rect.error();
   if (const Result<void> good = check_vertices(deformed); !good) return good.error();
   if (watch.stopped()) return cancelled();
-  const Raster<int> cells = map_cells(mesh, deformed, *rect, source_region);
-  if (std::ranges::all_of(cells.values(), [](int cell) { return cell == kNoCell; }))
-    return Error{"warp.no-cell", "The deformed mesh does not reach the region that it shall fill.", ""};
-  if (watch.stopped()) return cancelled();
 
-  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Rgba{0, 0, 0, 0})};
-  RegionPainter painter(source, mesh, deformed, cells, out);
-  const Mask wanted = with_neighbours(mask);
-  std::vector<Mask::Run> unfinished;
-  for (const Mask::Run& run : wanted.runs())
-    if (painter.paint_covered(run)) unfinished.push_back(run);
+  const RegionPainter painter(source, mesh, deformed, options);
+  const CellRaster raster(mesh, deformed, painter.inverses(), *rect, source_region);
+  const Mask wanted = grown(mask);
+  WarpedRegion out{*rect, Raster<Rgba>::unset(rect->width, rect->height)};
+  BandedWarp warp(painter, raster, wanted, out);
+  run_parallel(warp.count(), options.threads, [&](int band) {
+    if (!watch.stopped()) warp.draw(band);
+  });
   if (watch.stopped()) return cancelled();
-  for (const Mask::Run& run : unfinished)
-    painter.paint_uncovered(run);
+  if (!warp.has_cells())
+    return Error{"warp.no-cell", "The deformed mesh does not reach the region that it shall fill.", ""};
+  warp.draw_uncovered();
   return out;
 }
 

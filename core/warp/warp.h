@@ -5,10 +5,28 @@
 #include "core/geometry/mask.h"
 #include "core/geometry/point.h"
 #include "core/image/image.h"
+#include "core/image/pyramid.h"
 #include "core/image/warped_region.h"
 #include "core/mesh/quad_mesh.h"
+#include "core/warp/row_kernels.h"
 
 namespace oversketch {
+
+/// How a warp reads the source.
+enum class Sampling {
+  /// From the nearest 2 × 2 pixels.
+  kBilinear,
+  /// From the nearest 4 × 4 pixels (Catmull–Rom): sharper; overshoots beside steep edges, see BicubicTaps.
+  kBicubic,
+};
+
+/// None of them but `sampling` changes the result by a bit.
+struct WarpOptions {
+  Sampling sampling = Sampling::kBilinear;
+  /// How many threads may draw; 1 or less: the calling one alone.
+  int threads = 1;
+  Simd simd = Simd::kBest;
+};
 
 /// Draws a deformed mesh: texture mapping of `source` into the pixels of `mask`, each of them once.
 ///
@@ -19,28 +37,28 @@ namespace oversketch {
 /// the later cell. A pixel that no cell covers takes the coordinate that the nearest covered pixel's cell gives when it
 /// is continued linearly.
 ///
-/// Source points are rounded to 2⁻²⁰ px (so that an identity is exact to the bit) and the source is sampled bilinearly
-/// there, once: pixel centres at (0.5, 0.5), edge pixels repeated outside, colours weighed by alpha, so that what is
-/// hidden under alpha 0 does not bleed.  A region that is shrunk much aliases.
+/// Source points are rounded to 2⁻²⁰ px (so that an identity is exact to the bit) and the source is sampled there, once:
+/// pixel centres at (0.5, 0.5), edge pixels repeated outside, colours weighed by alpha, so that what is hidden under
+/// alpha 0 does not bleed.  Where the mesh shrinks the source by more than 1.5, averages over a pixel's reach take the
+/// place of the sample, gradually, and nothing aliases: see Minification.  Elsewhere the pyramid is not touched.
 ///
-/// @param source         picture that the mesh's own vertices refer to, source pixels.
+/// @param source         picture that the mesh's own vertices refer to, source pixels.  Keep the pyramid where one
+///   picture is warped again and again: levels that are made stay.
 /// @param mesh           cells; `mesh.vertices` in source pixels.
 /// @param deformed       where each vertex went, pixels of the mask; as many as `mesh.vertices` (CHECK).
 /// @param mask           pixels wanted.
 /// @param source_region  the region in the source, or null: settles overlaps of a mesh whose parts come near each
-/// other,
-///   where one part's margin would hide another part's inside.
+/// other, where one part's margin would hide another part's inside.
 /// @returns rect = mask.bounds() grown by 1; the mask's pixels and their eight neighbours are drawn, all others are
 ///   {0, 0, 0, 0}.
 /// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than kMaxWarpPixels in the rect); warp.not-finite
-/// and
-///   warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell (no cell covers
+/// and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell (no cell covers
 ///   any pixel of the rect); cancelled.
-/// @cost about 10 ns a pixel and 16 + 4 bytes a pixel of the rect on one core; 4 bytes more while uncovered pixels are
-/// filled.
+/// @cost COST
 /// @threads safe: reads its arguments, keeps nothing.
-Result<WarpedRegion> warp_region(const Image& source, const QuadMesh& mesh, const Points& deformed, const Mask& mask,
-                                 const Watch& watch = {}, const Mask* source_region = nullptr);
+Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
+                                 const Mask& mask, const Watch& watch = {}, const Mask* source_region = nullptr,
+                                 const WarpOptions& options = {});
 
 /// The picture as it stands under a mask, with the same rect as warp_region's: edge pixels repeated outside.
 /// @errors warp.empty-mask, warp.empty-source, warp.too-large.

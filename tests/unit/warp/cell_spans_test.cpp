@@ -1,12 +1,35 @@
-#include "core/warp/cell_map.h"
+#include "core/warp/cell_spans.h"
 
 #include "core/base/check.h"
+#include "core/warp/nearest_covered.h"
 #include "tests/unit/warp/warp_support.h"
 
 #include <gtest/gtest.h>
 
 namespace oversketch {
 namespace {
+
+constexpr int kNoCell = -1;
+
+/// Which cell is drawn at each pixel of the rect; also holds the spans to their order.
+Raster<int> map_cells(const QuadMesh& mesh, const Points& deformed, const Rect& rect) {
+  std::vector<CellInverse> inverses;
+  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell)
+    inverses.emplace_back(mesh, deformed, cell);
+  const CellRaster raster(mesh, deformed, inverses, rect, nullptr);
+  const CellSpans spans = raster.rows(rect.y, rect.bottom());
+  Raster<int> cells(rect.width, rect.height, kNoCell);
+  for (int y = rect.y; y < rect.bottom(); ++y) {
+    int end = rect.x;
+    for (const CellSpan& span : spans.row(y)) {
+      EXPECT_TRUE(end <= span.x0 && span.x0 < span.x1 && span.x1 <= rect.right());
+      end = span.x1;
+      for (int x = span.x0; x < span.x1; ++x)
+        cells.at(x - rect.x, y - rect.y) = span.cell;
+    }
+  }
+  return cells;
+}
 
 /// The mesh with one cell alone.
 QuadMesh only(const QuadMesh& mesh, std::size_t cell) {
@@ -15,7 +38,7 @@ QuadMesh only(const QuadMesh& mesh, std::size_t cell) {
   return out;
 }
 
-TEST(MapCells, RefusesVerticesOutOfRange) {
+TEST(CellSpans, RefusesVerticesOutOfRange) {
   const QuadMesh mesh = grid_mesh({0, 0}, 10, 1, 1);
   Points far = mesh.vertices;
   far[0].x = -kMaskCoordinateLimit;
@@ -23,7 +46,7 @@ TEST(MapCells, RefusesVerticesOutOfRange) {
   EXPECT_TRUE(map_cells(mesh, mesh.vertices, {0, 0, 0, 0}).empty());
 }
 
-TEST(MapCells, CellsPartThePixelsInAnyMesh) {
+TEST(CellSpans, CellsPartThePixelsInAnyMesh) {
   // Each cell painted alone: together every pixel inside is painted exactly once, and the boundary's shape does not
   // matter.
   std::mt19937 random(11);
@@ -66,7 +89,7 @@ TEST(MapCells, CellsPartThePixelsInAnyMesh) {
   }
 }
 
-TEST(MapCells, AnEdgeBelongsToTheRightAndBelow) {
+TEST(CellSpans, AnEdgeBelongsToTheRightAndBelow) {
   const QuadMesh mesh = grid_mesh({0.5, 0.5}, 3, 1, 1);
   const Raster<int> map = map_cells(mesh, mesh.vertices, {-2, -2, 10, 10});
   for (int y = 0; y < 10; ++y)
@@ -74,7 +97,7 @@ TEST(MapCells, AnEdgeBelongsToTheRightAndBelow) {
       EXPECT_EQ(map.at(x, y), x >= 2 && x < 5 && y >= 2 && y < 5 ? 0 : kNoCell) << x << "," << y;
 }
 
-TEST(MapCells, AgreesWithThePolygonMaskOfEachCell) {
+TEST(CellSpans, AgreesWithThePolygonMaskOfEachCell) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> place(0, 30);
   const QuadMesh mesh = grid_mesh({0, 0}, 10, 1, 1);
@@ -97,12 +120,12 @@ TEST(MapCells, AgreesWithThePolygonMaskOfEachCell) {
 }
 
 TEST(FindNearestCovered, FewestStepsAndStraightOnesFirst) {
-  Raster<int> cells(9, 7, kNoCell);
+  Raster<char> cells(9, 7, 0);
   const Raster<int> none = find_nearest_covered(cells);
   for (const int i : none.values())
-    EXPECT_EQ(i, kNoCell);
-  cells.at(1, 1) = 4;
-  cells.at(7, 5) = 2;
+    EXPECT_EQ(i, -1);
+  cells.at(1, 1) = 1;
+  cells.at(7, 5) = 1;
   const Raster<int> nearest = find_nearest_covered(cells);
   for (int y = 0; y < 7; ++y)
     for (int x = 0; x < 9; ++x) {
