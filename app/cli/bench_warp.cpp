@@ -53,7 +53,8 @@ WarpBench make_warp(double pixels, double shrink) {
   Points outline;
   for (int i = 0; i < 500; ++i) {
     const double angle = 2 * std::numbers::pi * i / 500;
-    outline.push_back(bend(std::polar(radius, angle).real() * Point{1, 0} + std::polar(radius, angle).imag() * Point{0, 1} +
+    outline.push_back(bend(std::polar(radius, angle).real() * Point{1, 0} +
+                           std::polar(radius, angle).imag() * Point{0, 1} +
                            0.06 * radius * Point{std::cos(3 * angle), std::sin(2 * angle)}));
   }
   out.mask = rasterize_polygon(outline, {0, 0, static_cast<int>(3 * kQuad * half), static_cast<int>(3 * kQuad * half)});
@@ -95,8 +96,8 @@ Result<void> run_size(const std::string& size, double pixels, const BenchInput& 
       if (shrunk && options.sampling == Sampling::kBicubic) continue;
       for (const Simd simd : {Simd::kBest, Simd::kBaseline}) {
         options.simd = simd;
-        const std::string row = "warp." + size + "." + (shrunk ? "minified" : name) +
-                                (simd == Simd::kBaseline ? ".baseline" : "");
+        const std::string row =
+            "warp." + size + "." + (shrunk ? "minified" : name) + (simd == Simd::kBaseline ? ".baseline" : "");
         const auto done = record.repeat(
             row, item, input.runs,
             [&] { return warp_region(source, bench.mesh, bench.deformed, bench.mask, input.watch, nullptr, options); },

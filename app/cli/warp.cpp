@@ -17,6 +17,7 @@ struct Options {
   std::string image, outline, sketch, out;
   int depth = 8;
   DeformOptions deform;
+  WarpOptions warp;
 };
 
 /// A curve that is sound and, where it must, lies in the picture.
@@ -63,7 +64,8 @@ Result<Json> warp(const Options& options, const Watch& watch) {
   if (!mask.empty()) {
     const StageTimer timer(watch.times, "warp");
     const Mask region = rasterize_polygon(*outline, image->rect());
-    const auto warped = warp_region(*image, *deformation.mesh, deformation.positions, mask, watch, &region);
+    const auto warped =
+        warp_region(*image, *deformation.mesh, deformation.positions, mask, watch, &region, options.warp);
     if (!warped) return warped.error();
     for (const Mask::Run& run : mask.runs())
       for (int x = run.x0; x < run.x1; ++x)
@@ -97,6 +99,13 @@ void add_warp(Cli& cli) {
   sub->add_option("--depth", options->depth, "bits a channel: 8 or 16")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
+  const auto set_sampling = [options](const std::string& name) {
+    options->warp.sampling = name == "bicubic" ? Sampling::kBicubic : Sampling::kBilinear;
+  };
+  sub->add_option_function<std::string>("--sampling", set_sampling,
+                                        "how the picture is read: bilinear (default), bicubic")
+      ->check(CLI::IsMember({"bilinear", "bicubic"}))
+      ->type_name("SAMPLING");
   add_deform_options(sub, options->deform);
   cli.on_run(sub, [options](const Watch& watch) { return warp(*options, watch); });
 }

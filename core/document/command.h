@@ -138,6 +138,7 @@ struct LayerSet {
   std::optional<DeformMethod> method;
   std::optional<double> cell_px, stiffness, follow, handle_weight;
   std::optional<int> iterations;
+  std::optional<WarpSampling> sampling;
   std::optional<CloneMode> mode;
   std::optional<double> strength;
   std::optional<CloneDomain> domain;

@@ -217,6 +217,8 @@ struct Spec<LayerSet> {
         Field{"handle_weight", &LayerSet::handle_weight, "the paper's ω, methods paper and initial; 1 from the start",
               "", 0.01, 100},
         Field{"iterations", &LayerSet::iterations, "gradient steps, method paper; 50 from the start", "", 0, 100000},
+        Field{"sampling", &LayerSet::sampling,
+              "how the source is read where it is deformed: bicubic is sharper; bilinear from the start"},
         Field{"mode", &LayerSet::mode, "how the region is blended; import from the start"},
         Field{"strength", &LayerSet::strength, "how much of the colour correction is applied; 1 from the start", "", 0,
               1},

@@ -69,6 +69,8 @@ struct Placement {
 Placement make_placement(const Similarity& to_target);
 
 enum class DeformMethod { kFlipfree, kPaper, kInitial };
+/// How a region reads its source where it is deformed.
+enum class WarpSampling { kBilinear, kBicubic };
 enum class CloneMode { kImport, kMixed, kMonochrome, kAverage, kNone };
 enum class CloneDomain { kEncoded, kLinear, kLog };
 
@@ -80,6 +82,7 @@ struct LayerSettings {
   double follow = 20;
   double handle_weight = 1;
   int iterations = 50;
+  WarpSampling sampling = WarpSampling::kBilinear;
   CloneMode mode = CloneMode::kImport;
   double strength = 1;
   CloneDomain domain = CloneDomain::kEncoded;

@@ -20,6 +20,12 @@ Names<DeformMethod> names_of(DeformMethod) {
   return names;
 }
 
+Names<WarpSampling> names_of(WarpSampling) {
+  static constexpr std::pair<WarpSampling, std::string_view> names[] = {{WarpSampling::kBilinear, "bilinear"},
+                                                                        {WarpSampling::kBicubic, "bicubic"}};
+  return names;
+}
+
 Names<CloneMode> names_of(CloneMode) {
   static constexpr std::pair<CloneMode, std::string_view> names[] = {{CloneMode::kImport, "import"},
                                                                      {CloneMode::kMixed, "mixed"},
@@ -164,6 +170,9 @@ Mismatch read_value(const Json& json, PinId& value) {
 Mismatch read_value(const Json& json, DeformMethod& value) {
   return read_word(json, value);
 }
+Mismatch read_value(const Json& json, WarpSampling& value) {
+  return read_word(json, value);
+}
 Mismatch read_value(const Json& json, CloneMode& value) {
   return read_word(json, value);
 }
@@ -217,6 +226,9 @@ Json write_value(PinId value) {
 Json write_value(DeformMethod value) {
   return write_word(value);
 }
+Json write_value(WarpSampling value) {
+  return write_word(value);
+}
 Json write_value(CloneMode value) {
   return write_word(value);
 }
@@ -261,6 +273,9 @@ void describe_value(PinId, FieldInfo& row) {
   row.type = "pin id";
 }
 void describe_value(DeformMethod value, FieldInfo& row) {
+  row.type = "choice", row.choices = words_of(value);
+}
+void describe_value(WarpSampling value, FieldInfo& row) {
   row.type = "choice", row.choices = words_of(value);
 }
 void describe_value(CloneMode value, FieldInfo& row) {

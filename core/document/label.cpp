@@ -77,10 +77,10 @@ std::string settings_changed(const LayerSet& c) {
       {c.method.has_value(), "method"},       {c.cell_px.has_value(), "mesh cell"},
       {c.stiffness.has_value(), "stiffness"}, {c.follow.has_value(), "follow"},
       {c.handle_weight.has_value(), "ω"},     {c.iterations.has_value(), "iterations"},
-      {c.mode.has_value(), "blend mode"},     {c.strength.has_value(), "strength"},
-      {c.domain.has_value(), "domain"},       {c.visible.has_value(), "visibility"},
-      {c.opacity.has_value(), "opacity"},     {c.feather_px.has_value(), "feather"},
-      {c.screening.has_value(), "screening"}};
+      {c.sampling.has_value(), "sampling"},   {c.mode.has_value(), "blend mode"},
+      {c.strength.has_value(), "strength"},   {c.domain.has_value(), "domain"},
+      {c.visible.has_value(), "visibility"},  {c.opacity.has_value(), "opacity"},
+      {c.feather_px.has_value(), "feather"},  {c.screening.has_value(), "screening"}};
   std::string text;
   for (const auto& [is, word] : given)
     if (is) text += (text.empty() ? ": " : ", ") + std::string(word);

@@ -15,6 +15,7 @@ void for_each_setting(Visit&& visit) {
   visit(&LayerSettings::follow, &LayerSet::follow);
   visit(&LayerSettings::handle_weight, &LayerSet::handle_weight);
   visit(&LayerSettings::iterations, &LayerSet::iterations);
+  visit(&LayerSettings::sampling, &LayerSet::sampling);
   visit(&LayerSettings::mode, &LayerSet::mode);
   visit(&LayerSettings::strength, &LayerSet::strength);
   visit(&LayerSettings::domain, &LayerSet::domain);

@@ -36,7 +36,8 @@ Raster<Rgba> halved(const Raster<Rgba>& from) {
     const std::span<Rgba> row = to.row(y);
     for (std::size_t x = 0; x < whole; ++x)
       row[x] = mean_of(upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]);
-    if (whole < row.size()) row[whole] = mean_of(upper[2 * whole], upper[2 * whole], lower[2 * whole], lower[2 * whole]);
+    if (whole < row.size())
+      row[whole] = mean_of(upper[2 * whole], upper[2 * whole], lower[2 * whole], lower[2 * whole]);
   }
   return to;
 }

@@ -2,7 +2,6 @@
 
 #include "core/base/check.h"
 #include "core/base/rect.h"
-#include "core/image/raster_memory.h"
 
 #include <cstddef>
 #include <span>
@@ -18,14 +17,6 @@ public:
   /// Sizes must not be negative (CHECK).
   Raster(int width, int height, T fill = T{})
       : width_(width), height_(height), values_(checked_count(width, height), fill) {}
-
-  /// Its values are whatever was there: for who sets them all.
-  static Raster unset(int width, int height) {
-    Raster raster;
-    raster.values_.resize(checked_count(width, height));
-    raster.width_ = width, raster.height_ = height;
-    return raster;
-  }
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -52,7 +43,7 @@ private:
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<T, RasterAllocator<T>> values_;
+  std::vector<T> values_;
 };
 
 } // namespace oversketch

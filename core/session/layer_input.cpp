@@ -16,6 +16,17 @@ Method method_of(DeformMethod method) {
   return {};
 }
 
+Sampling sampling_of(WarpSampling sampling) {
+  switch (sampling) {
+  case WarpSampling::kBilinear:
+    return Sampling::kBilinear;
+  case WarpSampling::kBicubic:
+    return Sampling::kBicubic;
+  }
+  CHECK(false, "a sampling without a kernel");
+  return {};
+}
+
 BlendMode mode_of(CloneMode mode) {
   switch (mode) {
   case CloneMode::kImport:
@@ -60,6 +71,12 @@ DeformOptions deform_options(const Layer& layer) {
   options.follow = layer.settings.follow;
   options.handle_weight = layer.settings.handle_weight;
   options.iterations = layer.settings.iterations;
+  return options;
+}
+
+WarpOptions warp_options(const Layer& layer) {
+  WarpOptions options;
+  options.sampling = sampling_of(layer.settings.sampling);
   return options;
 }
 
@@ -120,6 +137,7 @@ Hash shape_key(const Layer& layer, const Hash& deformation) {
   return Hasher()
       .add(deformation)
       .add(layer.source.image.content_hash())
+      .add(layer.settings.sampling)
       .add(p.factor.real())
       .add(p.factor.imag())
       .add(p.offset.x)

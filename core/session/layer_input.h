@@ -6,12 +6,14 @@
 #include "core/clone/blend.h"
 #include "core/deform/deformation.h"
 #include "core/document/document.h"
+#include "core/warp/warp.h"
 
 #include <vector>
 
 namespace oversketch {
 
 DeformOptions deform_options(const Layer& layer);
+WarpOptions warp_options(const Layer& layer);
 BlendOptions blend_options(const Layer& layer);
 std::vector<PinPair> pin_pairs(const Layer& layer);
 

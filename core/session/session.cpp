@@ -18,6 +18,8 @@ struct Session::Caches {
   // About 100 kB each.
   ContentCache<Deformation> solutions{256};
   ContentCache<Deformation> deformations{64};
+  // By the picture's content; at most a third of it more, made where a region is shrunk.
+  ContentCache<ImagePyramid> sources{4};
   ContentCache<LayerShape> shapes{6};
   ContentCache<Image> composites{6};
 };
@@ -253,6 +255,12 @@ Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
   return measure(placed, ClosedCurve(layer.sketch_in_target()), {});
 }
 
+ImagePyramid Session::source_of(const Layer& layer) {
+  const Hash key = layer.source.image.content_hash();
+  if (const auto cached = caches_->sources.find(key)) return *cached;
+  return *caches_->sources.put(key, std::make_shared<const ImagePyramid>(layer.source.image));
+}
+
 Result<std::shared_ptr<const LayerShape>> Session::shape_of(const Layer& layer, const Solve& solve, bool needs_system,
                                                             const Watch& watch) {
   const Hash key = shape_key(layer, solve.deformation);
@@ -271,8 +279,8 @@ Result<std::shared_ptr<const LayerShape>> Session::shape_of(const Layer& layer, 
     if (!mask) return at(place_of(layer), mask.error());
     if (!mask->empty()) {
       const Mask region = rasterize_polygon(layer.outline, layer.source.image.rect());
-      auto warped = warp_region(layer.source.image, *(*deformed)->mesh, transformed((*deformed)->positions, place),
-                                *mask, watch, &region);
+      auto warped = warp_region(source_of(layer), *(*deformed)->mesh, transformed((*deformed)->positions, place), *mask,
+                                watch, &region, warp_options(layer));
       if (!warped) return at(place_of(layer), warped.error());
       made->mask = opaque_part(*warped, *mask);
       made->warped = std::move(*warped);

@@ -4,7 +4,11 @@
 #include "core/base/watch.h"
 #include "core/deform/deformation.h"
 #include "core/document/history.h"
+<<<<<<< HEAD
 #include "core/image/warped_region.h"
+=======
+#include "core/image/pyramid.h"
+>>>>>>> e90406a (A layer's sampling, bilinear or bicubic; tests of what a warp does to pictures; bench warp)
 #include "core/session/drawn_layer.h"
 #include "core/session/saved_session.h"
 #include "core/session/script.h"
@@ -36,7 +40,7 @@ struct Counters {
 ///     outline, method (the paper's: cell) → solved mesh, symbolic and numeric factor
 ///     … + sketch, pins, weights           → solution
 ///     … + cell                            → drawn mesh
-///     … + source, turn, scale             → pixel mask, warped source, factor of the mask
+///     … + source, sampling, turn, scale   → pixel mask, warped source, factor of the mask
 ///     … + whole-pixel place, blending, what lies below → the picture
 ///
 /// A flip-free solution starts from the one before it where an oversketch, a pin or a weight changed it, so it depends
@@ -140,6 +144,8 @@ private:
   const Solve& solve_of(const Layer& layer) const;
   Result<std::shared_ptr<const DeformSystem>> system_of(const Layer& layer, const Watch& watch);
   Result<std::shared_ptr<const Deformation>> run(const Solve& solve, const Watch& watch);
+  /// Copies share what is made of it.
+  ImagePyramid source_of(const Layer& layer);
   Result<std::shared_ptr<const LayerShape>> shape_of(const Layer& layer, const Solve& solve, bool needs_system,
                                                      const Watch& watch);
   Result<Image> blend(const Layer& layer, const Image& below, const Watch& watch);

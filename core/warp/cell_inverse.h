@@ -65,7 +65,8 @@ private:
   int diagonal_from_ = 0;
   Point p0_, a_, b_, c_;
   double area_ = 0;
-  /// Of a gentle cell: what the source's affine part and the three crossings, divided by D, grow by from pixel to pixel.
+  /// Of a gentle cell: what the source's affine part and the three crossings, divided by D, grow by from pixel to
+  /// pixel.
   Point step_x_, step_y_, step_e_, step_u_, step_v_;
   double kappa_ = 0;
   std::array<BilinearForm, 2> source_;

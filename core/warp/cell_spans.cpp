@@ -112,7 +112,8 @@ void CellRaster::sort_cells(const QuadMesh& mesh) {
     std::int64_t left = INT64_MAX, right = INT64_MIN, top = INT64_MAX, bottom = INT64_MIN;
     for (const int vertex : mesh.cells[cell]) {
       const FixedPoint& p = vertices_[static_cast<std::size_t>(vertex)];
-      left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+      left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y),
+      bottom = std::max(bottom, p.y);
     }
     const Reach reach{static_cast<int>(cell), std::max(first_centre(top), rect_.y),
                       std::min(first_centre(bottom), rect_.bottom())};
@@ -180,8 +181,8 @@ CellSpans CellRaster::settled(int y0, std::vector<CellSpan> spans, std::vector<s
   std::vector<char> overlaps(rows, 0);
   for (std::size_t i = 0; i < rows; ++i) {
     sort_spans(row(i));
-    overlaps[i] = std::ranges::adjacent_find(row(i), [](const CellSpan& a, const CellSpan& b) { return a.x1 > b.x0; }) !=
-                  row(i).end();
+    overlaps[i] = std::ranges::adjacent_find(
+                      row(i), [](const CellSpan& a, const CellSpan& b) { return a.x1 > b.x0; }) != row(i).end();
   }
   CellSpans out;
   out.first_row_ = y0;

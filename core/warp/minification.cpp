@@ -65,8 +65,8 @@ Minification::Minification(const QuadMesh& mesh, const Points& deformed, int top
   shrinks_ = std::ranges::any_of(vertices_, [](const Vertex& vertex) { return vertex.stage > 0; });
   touched_.reserve(mesh.cells.size());
   for (const auto& cell : mesh.cells)
-    touched_.push_back(std::ranges::any_of(
-        cell, [&](int vertex) { return vertices_[static_cast<std::size_t>(vertex)].stage > 0; }));
+    touched_.push_back(
+        std::ranges::any_of(cell, [&](int vertex) { return vertices_[static_cast<std::size_t>(vertex)].stage > 0; }));
 }
 
 std::array<Minification::Vertex, 4> Minification::corners(int cell) const {

@@ -16,7 +16,8 @@ namespace oversketch {
 /// Its larger singular value σ is how many source pixels a target pixel reaches across, and decides the stage:
 ///
 ///     stage 0      σ ≤ 1.5       the source, sampled once
-///     stage k ≥ 1  σ ≤ 2ᵏ        the mean of four bilinear samples of pyramid level k − 1, at J (±¼, ±¼) from the point
+///     stage k ≥ 1  σ ≤ 2ᵏ        the mean of four bilinear samples of pyramid level k − 1, at J (±¼, ±¼) from the
+///     point
 ///
 /// and over σ = 1.5 … 1.75, 2ᵏ … 1.25 · 2ᵏ a stage goes over into the next, linearly: the four samples are never much
 /// farther apart than the pixels of their level, so nothing between them is missed.  Stages and J are bilinear within a

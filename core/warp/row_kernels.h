@@ -20,7 +20,9 @@ enum class Simd {
 struct BilinearForm {
   Point o, a, b, c;
 
-  Point operator()(double u, double v) const { return {value(o.x, a.x, b.x, c.x, u, v), value(o.y, a.y, b.y, c.y, u, v)}; }
+  Point operator()(double u, double v) const {
+    return {value(o.x, a.x, b.x, c.x, u, v), value(o.y, a.y, b.y, c.y, u, v)};
+  }
   static double value(double o, double a, double b, double c, double u, double v) {
     return o + u * a + v * b + (u * v) * c;
   }

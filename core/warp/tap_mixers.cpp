@@ -21,7 +21,8 @@ Lanes load(const Rgba& pixel) {
 
 /// Catmull–Rom: the weights of four taps, t beyond the second.
 Lanes cubic_weights(float t) {
-  constexpr Lanes kA = {-0.5F, 1.5F, -1.5F, 0.5F}, kB = {1, -2.5F, 2, -0.5F}, kC = {-0.5F, 0, 0.5F, 0}, kD = {0, 1, 0, 0};
+  constexpr Lanes kA = {-0.5F, 1.5F, -1.5F, 0.5F}, kB = {1, -2.5F, 2, -0.5F}, kC = {-0.5F, 0, 0.5F, 0},
+                  kD = {0, 1, 0, 0};
   return ((kA * t + kB) * t + kC) * t + kD;
 }
 
@@ -109,7 +110,8 @@ using WideBits = int __attribute__((vector_size(32)));
 
 [[gnu::target("avx2")]] bool mix_bicubic_avx2(const Rgba* pixels, int width, int count, const int* first,
                                               const float* tx, const float* ty, Rgba* out) {
-  constexpr Lanes kA = {-0.5F, 1.5F, -1.5F, 0.5F}, kB = {1, -2.5F, 2, -0.5F}, kC = {-0.5F, 0, 0.5F, 0}, kD = {0, 1, 0, 0};
+  constexpr Lanes kA = {-0.5F, 1.5F, -1.5F, 0.5F}, kB = {1, -2.5F, 2, -0.5F}, kC = {-0.5F, 0, 0.5F, 0},
+                  kD = {0, 1, 0, 0};
   WideBits all = {-1, -1, -1, -1, -1, -1, -1, -1};
   for (int i = 0; i < count; ++i) {
     const Lanes wx = ((kA * tx[i] + kB) * tx[i] + kC) * tx[i] + kD, wy = ((kA * ty[i] + kB) * ty[i] + kC) * ty[i] + kD;

@@ -6,8 +6,8 @@
 
 namespace oversketch {
 
-/// Mixes `count` points whose taps all lie in the picture: `first` is the index of the upper left tap, tx and ty are how
-/// far the points lie beyond the pixel centre before them, 0 ≤ t < 1.
+/// Mixes `count` points whose taps all lie in the picture: `first` is the index of the upper left tap, tx and ty are
+/// how far the points lie beyond the pixel centre before them, 0 ≤ t < 1.
 /// @returns false when not all taps are opaque; what is in `out` is then worth nothing.
 using MixInside = bool(const Rgba* pixels, int width, int count, const int* first, const float* tx, const float* ty,
                        Rgba* out);

@@ -66,7 +66,6 @@ public:
     const auto row_is_before = [](int y) { return [y](const Mask::Run& run) { return run.y < y; }; };
     const auto first = std::ranges::partition_point(wanted_.runs(), row_is_before(y0));
     const auto end = std::ranges::partition_point(wanted_.runs(), row_is_before(y1));
-    clear_between({first, end}, y0, y1);
     band.uncovered = painter_.paint(std::span(first, end), band.spans, out_);
   }
 
@@ -95,20 +94,6 @@ private:
     int y = 0;
   };
 
-  /// Sets the pixels of some rows that no run has.
-  void clear_between(std::span<const Mask::Run> runs, int y0, int y1) {
-    auto run = runs.begin();
-    for (int y = y0; y < y1; ++y) {
-      const std::span<Rgba> row = out_.pixels.row(y - out_.rect.y);
-      auto from = row.begin();
-      for (; run != runs.end() && run->y == y; ++run) {
-        std::fill(from, row.begin() + (run->x0 - out_.rect.x), Rgba{0, 0, 0, 0});
-        from = row.begin() + (run->x1 - out_.rect.x);
-      }
-      std::fill(from, row.end(), Rgba{0, 0, 0, 0});
-    }
-  }
-
   Rgba& pixel(int x, int y) { return out_.pixels.at(x - out_.rect.x, y - out_.rect.y); }
 
   int cell_at(Pixel p) const {
@@ -131,7 +116,8 @@ private:
     Raster<char> covered(out_.rect.width, out_.rect.height, 0);
     for (int y = 0; y < out_.rect.height; ++y)
       for (const CellSpan& span : bands_[static_cast<std::size_t>(y / kBandRows)].spans.row(out_.rect.y + y))
-        std::fill(&covered.at(span.x0 - out_.rect.x, y), &covered.at(span.x0 - out_.rect.x, y) + (span.x1 - span.x0), 1);
+        std::fill(&covered.at(span.x0 - out_.rect.x, y), &covered.at(span.x0 - out_.rect.x, y) + (span.x1 - span.x0),
+                  1);
     return covered;
   }
 
@@ -159,7 +145,7 @@ Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mes
   const RegionPainter painter(source, mesh, deformed, options);
   const CellRaster raster(mesh, deformed, painter.inverses(), *rect, source_region);
   const Mask wanted = grown(mask);
-  WarpedRegion out{*rect, Raster<Rgba>::unset(rect->width, rect->height)};
+  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Rgba{0, 0, 0, 0})};
   BandedWarp warp(painter, raster, wanted, out);
   run_parallel(warp.count(), options.threads, [&](int band) {
     if (!watch.stopped()) warp.draw(band);

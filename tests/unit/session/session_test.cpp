@@ -159,6 +159,19 @@ TEST(Session, a_layer_whose_sketch_is_its_outline_shows_its_picture) {
   }
 }
 
+TEST(Session, bicubic_sampling_shows_another_picture_and_can_be_undone) {
+  Session session = with_sketch();
+  const Image before = picture(session);
+  run(session, setting([](LayerSet& s) { s.sampling = WarpSampling::kBicubic; }));
+  const Image after = picture(session);
+  const auto difference = compare(before, after);
+  ASSERT_TRUE(difference.ok());
+  EXPECT_GT(difference->max_levels, 0);
+  EXPECT_LT(difference->max_levels, 8);
+  ASSERT_TRUE(session.undo().ok());
+  EXPECT_EQ(picture(session), before);
+}
+
 TEST(Session, a_layer_above_or_below_is_left_alone) {
   Session session = with_sketch();
   run(session, LayerAdd{loaded_ref("second.png", wavy_image(90, 90, 3)), {}});
