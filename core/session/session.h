@@ -4,11 +4,8 @@
 #include "core/base/watch.h"
 #include "core/deform/deformation.h"
 #include "core/document/history.h"
-<<<<<<< HEAD
 #include "core/image/warped_region.h"
-=======
 #include "core/image/pyramid.h"
->>>>>>> e90406a (A layer's sampling, bilinear or bicubic; tests of what a warp does to pictures; bench warp)
 #include "core/session/drawn_layer.h"
 #include "core/session/saved_session.h"
 #include "core/session/script.h"
