@@ -1,6 +1,7 @@
 #include "core/deform/cleanup.h"
 
 #include "core/geometry/mask.h"
+#include "core/geometry/point_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,21 +30,6 @@ struct Piece {
   double end = 0;
   Point point;
 };
-
-/// A coordinate to a tenth of a pixel.
-std::string format_coordinate(double v) {
-  const std::string text = std::to_string(std::round(v * 10) / 10);
-  return text.substr(0, text.find('.') + 2);
-}
-
-std::string format_place(Point p) {
-  std::string text = "(";
-  text += format_coordinate(p.x);
-  text += ", ";
-  text += format_coordinate(p.y);
-  text += ")";
-  return text;
-}
 
 /// The vertex furthest in a direction that no ruler and no axis suggests.
 std::size_t find_start(const Points& points) {
@@ -191,7 +177,7 @@ Result<CutAway> cut_loops(const std::vector<Cut>& cuts, double total) {
     const double loop = away.remaining(from, to);
     if (loop > kLargestLoop * left)
       return Error{"sketch.crosses-itself",
-                   "The sketch crosses itself at " + format_place(cut.point) +
+                   "The sketch crosses itself at " + point_text(cut.point) +
                        " with a large part on either side; draw it as one simple closed line.",
                    ""};
     away.add(from, to, cut.point);

@@ -2,8 +2,10 @@
 
 #include "core/base/check.h"
 #include "core/deform/flipfree_solver.h"
+#include "core/deform/metrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace oversketch {
@@ -11,6 +13,10 @@ namespace {
 
 /// A pin further than this from where its point was (part of the length) is matched anew.
 constexpr double kFarPin = 0.05;
+/// What a runner-up must keep to: see solve_alternatives().  Parts of the square root of the sketch's area.
+constexpr double kFurthest = 0.15;
+constexpr double kFurtherThanBest = 1.5;
+constexpr double kSameAnswer = 0.02;
 
 bool has_same_sketch(const FlipfreeSolution* warm, const Points& given) {
   return warm && *warm->given_sketch == given;
@@ -75,6 +81,22 @@ std::vector<PinPlace> in_frame(const FlipfreeInput& input) {
   return pins;
 }
 
+/// Of the outline from the sketch or of the sketch from it, px.
+double furthest_from_sketch(const FlipfreeSolution& solution) {
+  return measure_sketch_distance(ClosedCurve(solution.handles), solution.sketch->curve).max;
+}
+
+bool is_worth_offering(const FlipfreeSolution& other, const FlipfreeSolution& best) {
+  if (other.flipped > 0) return false;
+  const double size = std::sqrt(std::abs(best.sketch->curve.signed_area()));
+  if (furthest_from_sketch(other) > std::max(kFurthest * size, kFurtherThanBest * furthest_from_sketch(best)))
+    return false;
+  double apart = 0;
+  for (std::size_t i = 0; i < best.outline.size(); ++i)
+    apart += distance(other.outline[i], best.outline[i]) / static_cast<double>(best.outline.size());
+  return apart > kSameAnswer * size;
+}
+
 Result<std::vector<FlipfreeSolution>> solve_matched(const FlipfreeSystem& system, const FlipfreeInput& input,
                                                     const FlipfreeOptions& options, int count, const Watch& watch) {
   StageTimer match_timer(watch.times, "match");
@@ -85,11 +107,13 @@ Result<std::vector<FlipfreeSolution>> solve_matched(const FlipfreeSystem& system
   for (const Match& match : *matches) {
     const StageTimer timer(watch.times, "solve");
     FlipfreeSolver solver(system, input, options, watch);
-    if (!solver.solve_matched(match)) return cancelled();
-    solutions.push_back(solver.take());
-    solutions.back().match_cost = match.cost;
-    solutions.back().matches = solutions.size() == 1 ? 1 : 0;
-    watch.report(static_cast<double>(solutions.size()) / static_cast<double>(matches->size()), "solve");
+    const bool best = solutions.empty();
+    if (!solver.solve_matched(match, best)) return cancelled();
+    FlipfreeSolution solution = solver.take();
+    solution.match_cost = match.cost;
+    solution.matches = best ? 1 : 0;
+    if (best || is_worth_offering(solution, solutions.front())) solutions.push_back(std::move(solution));
+    watch.report(static_cast<double>(&match - matches->data() + 1) / static_cast<double>(matches->size()), "solve");
   }
   return solutions;
 }

@@ -137,6 +137,10 @@ Result<FlipfreeSolution> solve_flipfree(const FlipfreeSystem& system, const Poin
                                         const FlipfreeSolution* warm, const Watch& watch = {});
 
 /// The best match and up to `count` − 1 runners-up, each solved: the alternatives to offer.  Best match first.
+///
+/// A runner-up is offered only if it is an answer: without a flipped cell, its outline and the sketch nowhere further
+/// from each other than 15 % of the square root of the sketch's area (or than 1½ times the best's furthest, where no
+/// match fits), and not what the best one came to as well (2 % of the same in the mean).
 /// @errors as solve_flipfree().
 Result<std::vector<FlipfreeSolution>> solve_alternatives(const FlipfreeSystem& system, const Points& sketch,
                                                          std::span<const PinPair> pins, const FlipfreeOptions& options,

@@ -14,6 +14,15 @@ constexpr int kRounds = 10;
 constexpr double kHopeless = 40;
 /// Keeps circles, which may turn freely, from turning at all.
 constexpr double kAlong = 1e-6;
+/// Shifts that are tried along the curve.
+constexpr int kShifts = 512;
+/// Curves whose length for their area differs by more than this are no similar ones; a trembling of rounding is less.
+constexpr double kUnlike = 0.01;
+/// 1 − correlation² at half a shift beside the right one stays below this.
+constexpr double kUncorrelated = 2e-3;
+constexpr std::size_t kMostCandidates = 16;
+/// How much more than the tolerance a shift may be off before it is aligned.
+constexpr double kReach = 50;
 
 /// The similarity that takes `points` nearest to `targets` in least squares.
 Similarity fit_similarity(const Points& points, const Points& targets) {
@@ -53,17 +62,59 @@ Similarity improve(const Similarity& now, const Points& points, const std::vecto
   return {now.factor + std::complex(change[0], change[1]), now.offset + std::complex(change[2], change[3])};
 }
 
+/// How well a similarity takes the points to the curve's samples from each shift on: 1 − correlation², 0 at best.
+std::vector<double> correlate(const Points& points, const std::vector<double>& parts, const ClosedCurve& curve) {
+  std::vector<std::complex<double>> samples;
+  for (const Point p : resample(curve, kShifts))
+    samples.push_back(to_complex(p));
+  std::complex<double> mean;
+  for (const Point p : points)
+    mean += to_complex(p) / static_cast<double>(points.size());
+  std::vector<double> misfit(kShifts);
+  for (int shift = 0; shift < kShifts; ++shift) {
+    std::complex<double> product, sum;
+    double own = 0, theirs = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto z = to_complex(points[i]) - mean;
+      const auto w =
+          samples[static_cast<std::size_t>(shift + static_cast<int>(std::lround(parts[i] * kShifts))) % kShifts];
+      product += std::conj(z) * w;
+      sum += w;
+      own += std::norm(z);
+      theirs += std::norm(w);
+    }
+    theirs -= std::norm(sum) / static_cast<double>(points.size());
+    misfit[static_cast<std::size_t>(shift)] = own > 0 && theirs > 0 ? 1 - std::norm(product) / (own * theirs) : 1.0;
+  }
+  return misfit;
+}
+
+/// The shifts that fit better than their neighbours, and nearly: best first.
+std::vector<int> best_shifts(const std::vector<double>& misfit) {
+  std::vector<int> shifts;
+  for (int k = 0; k < kShifts; ++k) {
+    const auto at = [&](int i) { return misfit[static_cast<std::size_t>((i + kShifts) % kShifts)]; };
+    if (at(k) < kUncorrelated && at(k) <= at(k - 1) && at(k) < at(k + 1)) shifts.push_back(k);
+  }
+  std::stable_sort(shifts.begin(), shifts.end(), [&](int a, int b) {
+    return misfit[static_cast<std::size_t>(a)] < misfit[static_cast<std::size_t>(b)];
+  });
+  if (shifts.size() > kMostCandidates) shifts.resize(kMostCandidates);
+  return shifts;
+}
+
 } // namespace
 
-std::optional<std::vector<double>> align_similar(const Points& points, const ClosedCurve& curve,
-                                                 const std::vector<double>& s, double tolerance) {
+std::optional<Alignment> align_similar(const Points& points, const ClosedCurve& curve, const std::vector<double>& s,
+                                       double tolerance) {
   Points targets;
   for (const double at : s)
     targets.push_back(curve.at(at));
   Similarity similarity = fit_similarity(points, targets);
   std::vector<CurvePosition> nearest(points.size());
+  double worst = 0;
   for (int round = 0; round <= kRounds; ++round) {
-    double worst = 0;
+    worst = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       nearest[i] = curve.nearest(similarity(points[i]));
       worst = std::max(worst, nearest[i].distance);
@@ -78,7 +129,26 @@ std::optional<std::vector<double>> align_similar(const Points& points, const Clo
   for (std::size_t i = 0; i + 1 < s.size(); ++i)
     if (found[i + 1] <= found[i]) return std::nullopt;
   if (found.back() >= found.front() + curve.length()) return std::nullopt;
-  return found;
+  return Alignment{std::move(found), worst, std::arg(similarity.factor)};
+}
+
+std::optional<Alignment> find_similar(const Points& points, const ClosedCurve& outline, const std::vector<double>& s,
+                                      const ClosedCurve& curve, double tolerance) {
+  const auto slenderness = [](const ClosedCurve& c) { return c.length() / std::sqrt(std::abs(c.signed_area())); };
+  if (std::abs(slenderness(outline) / slenderness(curve) - 1) > kUnlike) return std::nullopt;
+  std::vector<double> parts;
+  for (const double at : s)
+    parts.push_back((at - s.front()) / outline.length());
+  std::optional<Alignment> best;
+  for (const int shift : best_shifts(correlate(points, parts, curve))) {
+    std::vector<double> places;
+    for (const double part : parts)
+      places.push_back((static_cast<double>(shift) / kShifts + part) * curve.length());
+    auto found = align_similar(points, curve, places, kReach * tolerance);
+    if (found && found->distance <= tolerance && (!best || std::abs(found->turn) < std::abs(best->turn)))
+      best = std::move(found);
+  }
+  return best;
 }
 
 } // namespace oversketch

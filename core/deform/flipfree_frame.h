@@ -8,7 +8,8 @@ namespace oversketch {
 /// large as the region.
 ///
 /// Points are rounded to kFrameGrid there, so that a sketch that was moved or scaled gives the same numbers to the last
-/// bit, and not merely nearly the same ones, which many steps of a solver may drive apart.
+/// bit, and not merely nearly the same ones, which many steps of a solver may drive apart.  Vertices on straight
+/// lines are dropped for the same reason: a sketch that begins in the middle of a side is the same sketch.
 struct SketchFrame {
   ClosedCurve curve;
   /// Side of a control cell, target px.

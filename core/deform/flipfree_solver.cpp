@@ -35,8 +35,9 @@ constexpr int kPinRounds = 4;
 /// How hard the match holds a handle: everywhere, and where shape decides sharply (times certainty squared).
 constexpr double kHold = 0.015;
 constexpr double kSureHold = 0.2;
-/// A sketch this near to a similarity of the outline is one, cells.
+/// A sketch this near to a similarity of the outline is one, and one that no other can better, cells.
 constexpr double kSimilar = 0.05;
+constexpr double kSame = 1e-3;
 /// How far a moved pin takes its neighbours along: part of the outline, and in parts of its own way.
 constexpr double kPinReach = 0.06;
 constexpr double kPinReachOfWay = 4;
@@ -214,19 +215,28 @@ bool FlipfreeSolver::meet_pins() {
   return true;
 }
 
-bool FlipfreeSolver::solve_matched(const Match& match) {
+/// Places to the last bit where the sketch is the outline's own shape; the best match must find the turn that fits.
+void FlipfreeSolver::align_places(bool best) {
+  Points own;
+  std::vector<double> own_s;
+  for (std::size_t i = 0; i < handles_.size(); ++i) {
+    own.push_back(handle_position(system_.region.mesh().vertices, i));
+    own_s.push_back(handles_[i].outline_s);
+  }
+  auto aligned = align_similar(own, frame_.curve, state_.places.s, kSimilar);
+  if (best && !(aligned && aligned->distance < kSame))
+    if (auto same = find_similar(own, system_.region.outline(), own_s, frame_.curve, kSame)) aligned = std::move(same);
+  if (aligned) state_.places.s = std::move(aligned->s);
+}
+
+bool FlipfreeSolver::solve_matched(const Match& match, bool best) {
   gains_.gain = kGain;
   set_places([&](double s) { return match.sketch_at(s); });
   for (const Handle& handle : handles_) {
     const double certainty = std::min(1.0, match.certainty_at(handle.outline_s));
     problem_.holds.push_back(handle.pinned ? 0.0 : kHold + kSureHold * certainty * certainty);
   }
-  if (input_.pins.empty()) {
-    Points own;
-    for (std::size_t i = 0; i < handles_.size(); ++i)
-      own.push_back(handle_position(system_.region.mesh().vertices, i));
-    if (auto s = align_similar(own, frame_.curve, state_.places.s, kSimilar)) state_.places.s = std::move(*s);
-  }
+  if (input_.pins.empty()) align_places(best);
   problem_.anchors = state_.places.s;
   start_linear();
   if (!run_stages(kStages)) return false;

@@ -46,7 +46,8 @@ public:
 
   /// From a match with frame.curve: linear start, stages of W, and the safe way where that leaves flips.  False when
   /// stopped.
-  bool solve_matched(const Match& match);
+  /// @param best  not a runner-up: gives way to a similarity where the sketch is one.
+  bool solve_matched(const Match& match, bool best);
   /// From positions (target px) and a correspondence: the last stage alone.  False when stopped.
   bool solve_warm(const Points& positions, const WarmPlaces& warm);
 
@@ -57,6 +58,7 @@ public:
 private:
   std::vector<Handle> make_handles() const;
   void set_places(const std::function<double(double)>& sketch_s);
+  void align_places(bool best);
   void start_linear();
   void start_similar();
   bool run_stages(std::span<const double> stages);

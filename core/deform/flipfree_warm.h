@@ -8,7 +8,8 @@
 namespace oversketch {
 
 /// How the places of an old curve carry over to a new one of which a part was redrawn: the longest run of points that
-/// both have in common keeps its places, the rest is mapped by arc length.
+/// both have in common, and of the segments before and after it as far as both go the same way, keeps its places; the
+/// rest is mapped by arc length.
 struct CurveRemap {
   double old_from = 0;
   double new_from = 0;

@@ -6,6 +6,7 @@
 #include "core/document/redraw.h"
 
 #include "core/geometry/curve.h"
+#include "core/geometry/point_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +21,6 @@ constexpr int kFurthest = 1 << 20;
 /// Smallest and largest scale that a placement may reach.
 constexpr double kLeastScale = 1e-3, kMostScale = 1e3;
 
-std::string coordinates(Point p) {
-  const auto number = [](double x) {
-    std::string text = std::to_string(std::round(x * 10) / 10);
-    return text.substr(0, text.find('.') + 2);
-  };
-  return "(" + number(p.x) + ", " + number(p.y) + ")";
-}
-
 Error no_region(const Layer& layer) {
   return {"layer.no-region", "set the region's outline first", "layer " + to_string(layer.id)};
 }
@@ -38,7 +31,7 @@ Result<void> check_inside(const Layer& layer) {
   for (const Point p : layer.outline)
     if (p.x < 0 || p.y < 0 || p.x > source.width() || p.y > source.height())
       return Error{"region.outside-source",
-                   "the outline leaves its picture at " + coordinates(p) + ": the picture is " +
+                   "the outline leaves its picture at " + point_text(p) + ": the picture is " +
                        std::to_string(source.width()) + " × " + std::to_string(source.height()) + " px",
                    ""};
   return {};

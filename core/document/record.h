@@ -38,6 +38,10 @@ struct Field {
   bool required() const { return !kIsOptional<T> && !may_be_absent; }
 };
 
+/// Clang deduces nothing for an aggregate by itself before version 17.
+template <class C, class T, class... More>
+Field(std::string_view, T C::*, std::string_view, More...) -> Field<C, T>;
+
 /// Specialised for each struct: `name`, `label`, `help`, and `fields()`, a tuple of Field.
 template <class C>
 struct Spec;

@@ -1,5 +1,6 @@
 #include "core/geometry/curve.h"
 #include "core/geometry/mask.h"
+#include "core/geometry/point_text.h"
 
 #include <cstddef>
 #include <cstdio>
@@ -8,13 +9,6 @@
 namespace oversketch {
 
 namespace {
-
-std::string in_words(Point p) {
-  char text[64];
-  const bool plain = std::abs(p.x) < 1e7 && std::abs(p.y) < 1e7;
-  std::snprintf(text, sizeof text, plain ? "(%.1f, %.1f)" : "(%.4g, %.4g)", p.x, p.y);
-  return text;
-}
 
 std::string place(std::string_view what, std::size_t i) {
   return std::string(what) + " point " + std::to_string(i);
@@ -28,7 +22,7 @@ Result<void> check_coordinates(const Points& points, std::string_view what) {
       return Error{"curve.not-finite", "the " + name + " has a coordinate that is not a finite number", place(what, i)};
     if (std::abs(p.x) >= kMaskCoordinateLimit || std::abs(p.y) >= kMaskCoordinateLimit)
       return Error{"curve.too-far",
-                   "the " + name + " reaches " + in_words(p) + ": keep it within " +
+                   "the " + name + " reaches " + point_text(p) + ": keep it within " +
                        std::to_string(static_cast<int>(kMaskCoordinateLimit)) + " px of the origin",
                    place(what, i)};
   }
@@ -71,7 +65,7 @@ Result<Points> check_closed_curve(const Points& points, std::string_view what, d
   if (const auto flat = check_area(area_without_sign(points)); !flat) return flat.error();
   if (const auto crossing = find_self_crossing(points, true))
     return Error{"curve.crosses-itself",
-                 "the " + name + " crosses itself at " + in_words(crossing->point) + ": draw it without crossings",
+                 "the " + name + " crosses itself at " + point_text(crossing->point) + ": draw it without crossings",
                  place(what, static_cast<std::size_t>(crossing->first))};
   if (const auto small = check_area(std::abs(signed_area(points))); !small) return small.error();
   return without_repeats(points);

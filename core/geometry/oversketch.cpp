@@ -1,9 +1,9 @@
 #include "core/geometry/oversketch.h"
 
 #include "core/geometry/oversketch_plan.h"
+#include "core/geometry/point_text.h"
 
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -80,17 +80,11 @@ Assembly assemble(const ClosedCurve& curve, const OversketchPlan& plan, const Po
   return {std::move(ring), (begin + n - start) % n, (n - start) % n};
 }
 
-std::string in_words(Point p) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f)", p.x, p.y);
-  return text;
-}
-
 Result<Points> check_result(const ClosedCurve& curve, const Points& points) {
   auto checked = check_closed_curve(points, "curve");
   if (!checked && checked.error().code == "curve.crosses-itself") {
     const auto crossing = find_self_crossing(points, true);
-    const std::string place = in_words(crossing->point);
+    const std::string place = point_text(crossing->point);
     return Error{"oversketch.crosses", "the curve would cross itself at " + place + ": nothing was changed", place};
   }
   if (checked && signed_area(*checked) * curve.signed_area() < 0)

@@ -1,13 +1,19 @@
 #include "core/session/case_file.h"
 
 #include "core/base/file.h"
+#include "core/base/suggest.h"
 #include "core/document/field_values.h"
 #include "core/document/json_line.h"
 #include "core/geometry/curve.h"
 #include "core/session/report.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace oversketch {
 namespace {
+
+constexpr std::string_view kCaseKeys[] = {"name", "outline", "sketch", "truth", "pins"};
 
 Result<Json> read_json(const std::filesystem::path& path) {
   const auto text = read_text_file(path);
@@ -49,15 +55,29 @@ Result<std::vector<PinPair>> read_pins(const Json& object) {
   if (!list->is_array()) return wrong;
   for (const Json& item : *list) {
     PinPair pin;
-    if (!item.contains("outline") || !item.contains("sketch")) return wrong;
+    if (!item.is_object() || !item.contains("outline") || !item.contains("sketch")) return wrong;
     if (read_value(item["outline"], pin.outline) || read_value(item["sketch"], pin.sketch)) return wrong;
     pins.push_back(pin);
   }
   return pins;
 }
 
+/// A misspelt "truth" or "pins" would silently be none.
+Result<void> check_keys(const Json& object, std::span<const std::string_view> known) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string lower = key;
+    for (char& c : lower)
+      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (const std::string hint = did_you_mean(lower, known); !hint.empty())
+      return Error{"case.unknown-key", "there is no key \"" + key + "\"" + hint, ""};
+  }
+  return {};
+}
+
 Result<DeformCase> case_from(const Json& object) {
   if (!object.is_object()) return Error{"case.type", "a case is an object {\"outline\": …, \"sketch\": …}", ""};
+  if (auto sound = check_keys(object, kCaseKeys); !sound) return sound.error();
   DeformCase given;
   if (const auto name = object.find("name"); name != object.end() && name->is_string())
     given.name = name->get<std::string>();

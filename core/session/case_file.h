@@ -23,8 +23,10 @@ struct DeformCase {
 };
 
 /// Reads {"name", "outline", "sketch", "truth"?, "pins"?}.  The outline must be simple, the sketch as clean_sketch()
-/// takes it; coordinates may be negative.
-/// @errors case.syntax, case.missing-key, case.type, case.truth (another number of points than the outline), those of
+/// takes it; coordinates may be negative.  Keys of other programs are passed over, but not what looks like one of these
+/// misspelt.
+/// @errors case.syntax, case.missing-key, case.unknown-key, case.type, case.truth (another number of points than the
+/// outline), those of
 ///   check_closed_curve, file.*; `where` begins with the path.
 Result<DeformCase> read_case(const std::filesystem::path& path);
 

@@ -292,6 +292,28 @@ TEST(FindRemap, FindsTheRedrawnPart) {
   EXPECT_FALSE(find_remap(old_curve, ClosedCurve(mostly)).has_value());
 }
 
+/// A side drawn over again in its middle, of a curve whose only points are its corners.
+TEST(FindRemap, KeepsTheEndsOfASideThatWasRedrawnInItsMiddle) {
+  const Points before{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
+  for (const std::size_t first : {0U, 2U, 4U}) {
+    Points after{{0, 0}, {120, 0}, {150, 40}, {170, 0}, {300, 0}, {300, 100}, {0, 100}};
+    std::rotate(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(first), after.end());
+    const ClosedCurve old_curve(before), new_curve(after);
+    const auto remap = find_remap(old_curve, new_curve);
+    ASSERT_TRUE(remap.has_value());
+    EXPECT_DOUBLE_EQ(remap->common, 800 - 50);
+    for (double s = -700; s < 1700; s += 7) {
+      const double along = s - std::floor(s / 800) * 800;
+      if (along > 120 && along < 170) {
+        EXPECT_TRUE(remap->redrawn(s)) << s;
+        continue;
+      }
+      EXPECT_LT(distance(new_curve.at((*remap)(s)), old_curve.at(s)), 1e-9) << s;
+    }
+    EXPECT_NEAR((*remap)(145) - (*remap)(120), 0.5 * (50 + std::hypot(20, 40)), 1e-9);
+  }
+}
+
 TEST(AlignSimilar, FindsTheSimilarityAndNothingElse) {
   const ClosedCurve curve(testing::cactus_shape());
   const Points own = transformed(resample(curve, 150), {std::polar(0.3, 2.0), {5, 6}});
@@ -301,7 +323,7 @@ TEST(AlignSimilar, FindsTheSimilarityAndNothingElse) {
   const auto s = align_similar(own, curve, near, 0.05);
   ASSERT_TRUE(s.has_value());
   for (int i = 0; i < 150; ++i)
-    EXPECT_NEAR((*s)[i], curve.length() * i / 150, 1e-9 * curve.length()) << i;
+    EXPECT_NEAR(s->s[i], curve.length() * i / 150, 1e-9 * curve.length()) << i;
   Points bent = own;
   for (Point& p : bent)
     p.x *= 1.05;

@@ -85,9 +85,12 @@ TEST(CaseFile, refuses_what_is_no_case) {
     EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"truth\": ") + wrong)), "case.type") << wrong;
   }
   for (const char* wrong : {"{}", "[[1, 2]]", R"([{"outline": [1, 2]}])", R"([{"outline": [1], "sketch": [1, 2]}])",
-                            R"([{"outline": [1, 2], "sketch": 3}])"})
+                            R"([{"outline": [1, 2], "sketch": 3}])", "[3]", R"(["outline"])"})
     EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"pins\": ") + wrong)), "case.type") << wrong;
   EXPECT_EQ(refusal(with(kSquare, kSquare, R"(, "truth": [[1, 2], [3, 4]])")), "case.truth");
+  for (const char* misspelt : {"pin", "Pins", "thruth", "sketches", "OUTLINE"})
+    EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"") + misspelt + "\": []")), "case.unknown-key")
+        << misspelt;
   EXPECT_EQ(refusal(with("[]", kSquare)), "curve.too-few-points");
   EXPECT_EQ(refusal(with("[[0, 0], [9, 9]]", kSquare)), "curve.too-few-points");
   EXPECT_EQ(refusal(with("[[0, 0], [9, 9], [18, 18]]", kSquare)), "curve.no-area");
@@ -134,7 +137,7 @@ TEST(CaseFile, reads_all_that_a_case_has) {
   const TempFolder folder;
   folder.write("bar.json", with(kSquare, "[[-5, 1.5], [90, 0], [0, 90]]",
                                 R"(, "truth": [[1, 2], [3, 4], [5, 6], [7, 8]],
-                                     "pins": [{"outline": [0, 0], "sketch": [90, 0]}], "note": "of no matter")"));
+                                     "pins": [{"outline": [0, 0], "sketch": [90, 0]}], "note": "of no matter", "kind": 3)"));
   const auto given = read_case(folder / "bar.json");
   ASSERT_TRUE(given.ok()) << to_string(given.error());
   EXPECT_EQ(given->name, "bar");
