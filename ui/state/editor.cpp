@@ -182,7 +182,7 @@ void Editor::perform(Action action) {
                  [&](action::SaveAs& a) { save_as(a); },
                  [&](action::ExportAgain&) { export_again(); },
                  [&](action::Export& a) { export_to(a); },
-                 [&](action::OpenSample&) { open(setup_.assets / "samples" / "puffer.jsonl"); },
+                 [&](action::OpenSample&) { open(setup_.assets / "samples" / "puffer.jsonl", false); },
                  [&](action::CloseTab& a) { close(a); },
                  [&](action::Quit& a) { quit(a); },
                  [&](auto&) { perform_view(action); },

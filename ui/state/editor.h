@@ -92,7 +92,8 @@ private:
   void request_file(FileRequest::For purpose, std::filesystem::path proposal);
   void remember_file(const std::filesystem::path& path);
 
-  void open(const std::filesystem::path& path);
+  /// @param remember  among the recent files.
+  void open(const std::filesystem::path& path, bool remember = true);
   void add_source(const std::filesystem::path& path);
   void set_target(const std::filesystem::path& path);
   void new_document(const action::NewDocument& asked);

@@ -54,7 +54,7 @@ void Editor::new_document(const action::NewDocument& asked) {
   state_.tool = Tool::kOutline;
 }
 
-void Editor::open(const fs::path& path) {
+void Editor::open(const fs::path& path, bool remember) {
   if (path.empty()) {
     const Tab* tab = state_.tab();
     return request_file(FileRequest::For::kOpen, tab != nullptr ? tab->folder : fs::path());
@@ -77,7 +77,7 @@ void Editor::open(const fs::path& path) {
     *opened = std::move(*result);
     return {};
   };
-  const auto then = [file, opened, id = tab.id](Editor& editor, const Result<void>& result) {
+  const auto then = [file, opened, remember, id = tab.id](Editor& editor, const Result<void>& result) {
     if (!result) {
       editor.say(result.error());
       return editor.remove_tab(*editor.index_of(id));
@@ -85,6 +85,7 @@ void Editor::open(const fs::path& path) {
     Tab& done = *editor.find_tab(id);
     done.read_only = opened->read_only;
     if (kind_of_file(file) == FileKind::kProject) done.path = file;
+    if (!remember) return;
     if (!opened->message.empty()) editor.say(opened->message);
     editor.remember_file(file);
   };

@@ -21,7 +21,7 @@ void set_dark(ThemeLook& look) {
   look.selected = rgb(0x34415a);
   look.ink = rgb(0xe3e5e8);
   look.ink_quiet = rgb(0x8d929b);
-  look.accent = rgb(0x3b74d8);
+  look.accent = rgb(0x3972d6);
   look.accent_ink = rgb(0xffffff);
   look.plot = rgb(0x7aa7f5);
 }
@@ -37,7 +37,7 @@ void set_light(ThemeLook& look) {
   look.filled = rgb(0xb3c6e8);
   look.selected = rgb(0xcddcf5);
   look.ink = rgb(0x23262b);
-  look.ink_quiet = rgb(0x6a6f78);
+  look.ink_quiet = rgb(0x5b6069);
   look.accent = rgb(0x2f6bd0);
   look.accent_ink = rgb(0xffffff);
   look.plot = rgb(0x2f6bd0);

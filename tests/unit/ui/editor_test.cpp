@@ -1,0 +1,359 @@
+#include "ui/state/editor.h"
+
+#include "core/image/image_io.h"
+#include "tests/support/documents.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace oversketch {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TempFolder;
+using testing::wavy_image;
+
+const fs::path kAssets = OVERSKETCH_SOURCE_DIR "/assets";
+
+/// An editor without a window: a frame goes by whenever the test says so.
+class EditorTest : public ::testing::Test {
+protected:
+  EditorTest() : editor_({kAssets, {}, {}, [this](const Preferences& p) { kept_ = p; }}) {}
+
+  void frame() { editor_.update(canvases_, now_s_ += 0.01); }
+  void settle() {
+    do {
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (editor_.busy());
+    frame();
+  }
+  void does(Action action) {
+    editor_.perform_all({std::move(action)});
+    settle();
+  }
+  /// The answer of that id, as the dialog gives it.
+  void answer(const std::string& id) {
+    ASSERT_TRUE(state().question);
+    for (const Question::Answer& offered : state().question->answers) {
+      if (offered.id != id) continue;
+      std::vector<Action> actions = offered.actions;
+      actions.push_back(action::Dismiss{});
+      editor_.perform_all(std::move(actions));
+      return settle();
+    }
+    FAIL() << "no answer " << id;
+  }
+  const EditorState& state() const { return editor_.state(); }
+  std::shared_ptr<const Snapshot> snapshot() const { return state().tab()->session->snapshot(); }
+  std::string code_of_problem() {
+    const auto problems = editor_.take_problems();
+    return problems.empty() ? "none" : problems.front().code;
+  }
+
+  fs::path picture(const std::string& name, int width = 60, int height = 40) {
+    const auto saved = save_image(wavy_image(width, height, 0.3), folder_ / name);
+    EXPECT_TRUE(saved.ok());
+    return folder_ / name;
+  }
+  /// A document with unsaved changes.
+  void begin_work() {
+    does(action::Open{picture("sea.png")});
+    does(action::AddSource{picture("fish.png", 50, 45)});
+    ASSERT_TRUE(snapshot()->modified);
+  }
+
+  TempFolder folder_;
+  std::optional<Preferences> kept_;
+  CanvasRects canvases_;
+  double now_s_ = 0;
+  Editor editor_;
+};
+
+TEST_F(EditorTest, what_cannot_be_opened_is_said_and_leaves_no_tab) {
+  does(action::Open{folder_ / "missing.png"});
+  EXPECT_EQ(code_of_problem(), "image.missing");
+  EXPECT_NE(state().said.find("missing.png"), std::string::npos) << state().said;
+  folder_.write("text.png", "no picture");
+  does(action::Open{folder_ / "text.png"});
+  EXPECT_EQ(code_of_problem(), "image.unknown-format");
+  folder_.write("bad.jsonl", "{\"oversketch_script\": 1}\n{\"do\": \"layer.add\"}\n");
+  does(action::Open{folder_ / "bad.jsonl"});
+  EXPECT_NE(state().said.find("bad.jsonl:2"), std::string::npos) << state().said;
+  EXPECT_TRUE(state().tabs.empty());
+  EXPECT_FALSE(kept_);
+}
+
+TEST_F(EditorTest, actions_without_a_document_do_nothing) {
+  for (const Action& action : std::vector<Action>{
+           action::Undo{}, action::Redo{}, action::Commit{}, action::Abandon{}, action::Jump{3}, action::CancelWork{},
+           action::Save{}, action::ExportAgain{}, action::CloseTab{2}, action::SelectTab{7}, action::Fit{},
+           action::ZoomBy{}, action::SelectPin{PinId{1}}, action::HoldBefore{true}, action::Execute{LayerRemove{}}})
+    does(action);
+  EXPECT_TRUE(state().tabs.empty());
+  EXPECT_FALSE(state().question);
+}
+
+TEST_F(EditorTest, a_picture_becomes_a_document_of_its_own) {
+  const fs::path file = picture("sea.png");
+  does(action::Open{file});
+  ASSERT_EQ(state().tabs.size(), 1u);
+  EXPECT_EQ(state().tab()->name, "sea");
+  EXPECT_TRUE(state().tab()->path.empty()) << "saving must not write over the picture";
+  EXPECT_EQ(snapshot()->document.target.image, wavy_image(60, 40, 0.3).empty() ? Image() : *load_image(file));
+  EXPECT_FALSE(snapshot()->modified);
+  ASSERT_TRUE(kept_);
+  EXPECT_EQ(kept_->recent_files, std::vector<fs::path>{file});
+  does(action::Open{picture("other.png")});
+  EXPECT_EQ(state().tabs.size(), 2u);
+  EXPECT_EQ(state().front, 1u);
+  EXPECT_EQ(kept_->recent_files.front(), folder_ / "other.png");
+}
+
+TEST_F(EditorTest, the_sample_opens_and_writes_nothing) {
+  does(action::OpenSample{});
+  ASSERT_EQ(state().tabs.size(), 1u);
+  EXPECT_EQ(snapshot()->history.size(), 9u);
+  EXPECT_FALSE(snapshot()->modified);
+  EXPECT_FALSE(fs::exists(kAssets / "samples/puffer.png"));
+  EXPECT_FALSE(fs::exists(kAssets / "samples/puffer.json"));
+  EXPECT_TRUE(state().preferences.recent_files.empty());
+}
+
+TEST_F(EditorTest, a_source_becomes_a_layer_to_be_outlined) {
+  does(action::PickTool{Tool::kMove});
+  begin_work();
+  ASSERT_EQ(snapshot()->document.layers.size(), 1u);
+  EXPECT_EQ(snapshot()->document.layers[0].name, "fish");
+  EXPECT_EQ(state().tool, Tool::kOutline);
+  does(action::AddSource{std::string(kTargetName)});
+  ASSERT_EQ(snapshot()->document.layers.size(), 2u);
+  EXPECT_EQ(snapshot()->document.layers[1].source.image, snapshot()->document.target.image);
+  does(action::AddSource{folder_ / "missing.png"});
+  EXPECT_EQ(code_of_problem(), "image.missing");
+  EXPECT_EQ(snapshot()->document.layers.size(), 2u);
+}
+
+TEST_F(EditorTest, a_source_without_a_document_is_opened) {
+  does(action::AddSource{picture("fish.png")});
+  ASSERT_EQ(state().tabs.size(), 1u);
+  EXPECT_TRUE(snapshot()->document.layers.empty());
+}
+
+TEST_F(EditorTest, a_dialog_is_asked_for_where_a_path_is_missing) {
+  does(action::Open{});
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().file_request->purpose, FileRequest::For::kOpen);
+  does(action::Dismiss{});
+  EXPECT_FALSE(state().file_request);
+  begin_work();
+  does(action::Export{});
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().file_request->proposal, folder_ / "sea.png");
+  does(action::Save{});
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().file_request->purpose, FileRequest::For::kSaveAs);
+  EXPECT_EQ(state().file_request->proposal, folder_ / (std::string("sea") + kProjectEnding));
+}
+
+TEST_F(EditorTest, what_was_saved_opens_again_as_it_was) {
+  begin_work();
+  does(action::SaveAs{folder_ / "work"});
+  const fs::path file = folder_ / (std::string("work") + kProjectEnding);
+  ASSERT_TRUE(fs::exists(file)) << state().said;
+  EXPECT_FALSE(snapshot()->modified);
+  EXPECT_EQ(state().tab()->name, "work");
+  const Document saved = snapshot()->document;
+  const auto history = snapshot()->history;
+  does(action::CloseTab{0});
+  ASSERT_TRUE(state().tabs.empty());
+  does(action::Open{file});
+  ASSERT_EQ(state().tabs.size(), 1u) << state().said;
+  EXPECT_EQ(snapshot()->document, saved);
+  EXPECT_EQ(snapshot()->history, history);
+  EXPECT_FALSE(snapshot()->modified);
+}
+
+TEST_F(EditorTest, saving_that_fails_keeps_the_work_and_its_star) {
+  begin_work();
+  folder_.write("plain", "a file, not a folder");
+  does(action::SaveAs{folder_ / "plain/work"});
+  EXPECT_NE(code_of_problem(), "none");
+  EXPECT_TRUE(snapshot()->modified);
+  EXPECT_TRUE(state().tab()->path.empty());
+}
+
+TEST_F(EditorTest, another_file_is_replaced_only_when_told_so) {
+  begin_work();
+  const std::string name = std::string("work") + kProjectEnding;
+  folder_.write(name, "precious");
+  does(action::SaveAs{folder_ / name});
+  ASSERT_TRUE(state().question);
+  EXPECT_EQ(folder_.read(name), "precious");
+  answer("cancel");
+  EXPECT_EQ(folder_.read(name), "precious");
+  does(action::SaveAs{folder_ / name});
+  answer("replace");
+  EXPECT_NE(folder_.read(name), "precious");
+  EXPECT_FALSE(snapshot()->modified);
+  // Its own file is saved over without a word.
+  does(action::Execute{LayerRename{{}, "other"}});
+  does(action::Save{});
+  EXPECT_FALSE(state().question);
+  EXPECT_FALSE(snapshot()->modified);
+}
+
+TEST_F(EditorTest, the_finished_picture_is_exported_by_its_ending) {
+  begin_work();
+  does(action::Export{folder_ / "out.png", 16});
+  const auto exported = load_image(folder_ / "out.png");
+  ASSERT_TRUE(exported.ok()) << state().said;
+  EXPECT_EQ(*exported, *load_image(folder_ / "sea.png"));
+  EXPECT_TRUE(snapshot()->modified) << "an export is no saving";
+  fs::remove(folder_ / "out.png");
+  does(action::ExportAgain{});
+  EXPECT_TRUE(fs::exists(folder_ / "out.png"));
+  EXPECT_FALSE(state().question);
+  does(action::Export{folder_ / "out.gif"});
+  EXPECT_EQ(code_of_problem(), "image.unknown-extension");
+}
+
+TEST_F(EditorTest, closing_asks_about_changes) {
+  begin_work();
+  does(action::CloseTab{0});
+  ASSERT_TRUE(state().question);
+  answer("cancel");
+  EXPECT_EQ(state().tabs.size(), 1u);
+  does(action::CloseTab{0});
+  answer("discard");
+  EXPECT_TRUE(state().tabs.empty());
+}
+
+TEST_F(EditorTest, closing_after_saving_waits_for_a_name_and_for_the_file) {
+  begin_work();
+  does(action::CloseTab{0});
+  answer("save");
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().tabs.size(), 1u);
+  does(action::Dismiss{});
+  EXPECT_EQ(state().tabs.size(), 1u) << "without a name nothing is closed";
+  does(action::CloseTab{0});
+  answer("save");
+  editor_.perform_all({action::SaveAs{folder_ / "work"}, action::Dismiss{}});
+  settle();
+  EXPECT_TRUE(state().tabs.empty());
+  EXPECT_TRUE(fs::exists(folder_ / (std::string("work") + kProjectEnding)));
+}
+
+TEST_F(EditorTest, a_saving_that_fails_closes_nothing) {
+  begin_work();
+  does(action::Quit{});
+  answer("save");
+  folder_.write("plain", "");
+  editor_.perform_all({action::SaveAs{folder_ / "plain/work"}, action::Dismiss{}});
+  settle();
+  EXPECT_EQ(state().tabs.size(), 1u);
+  EXPECT_FALSE(editor_.wants_to_quit());
+}
+
+TEST_F(EditorTest, quitting_asks_and_saves_every_document) {
+  begin_work();
+  does(action::Open{picture("second.png")});
+  does(action::AddSource{folder_ / "fish.png"});
+  does(action::Quit{});
+  ASSERT_TRUE(state().question);
+  answer("save");
+  for (const char* name : {"a", "b"}) {
+    ASSERT_TRUE(state().file_request) << name;
+    EXPECT_FALSE(editor_.wants_to_quit());
+    editor_.perform_all({action::SaveAs{folder_ / name}, action::Dismiss{}});
+    settle();
+  }
+  EXPECT_TRUE(editor_.wants_to_quit());
+  EXPECT_TRUE(fs::exists(folder_ / (std::string("a") + kProjectEnding)));
+  EXPECT_TRUE(fs::exists(folder_ / (std::string("b") + kProjectEnding)));
+}
+
+TEST_F(EditorTest, quitting_without_changes_asks_nothing) {
+  does(action::Open{picture("sea.png")});
+  does(action::Quit{});
+  EXPECT_FALSE(state().question);
+  EXPECT_TRUE(editor_.wants_to_quit());
+}
+
+TEST_F(EditorTest, pictures_are_fitted_until_somebody_looks_elsewhere) {
+  canvases_.target = WidgetMap::Box{100, 50, 30, 30};
+  does(action::Open{picture("sea.png", 60, 40)});
+  const View fit = fitted({60, 40}, {30, 30});
+  EXPECT_EQ(state().tab()->view.target.view, fit);
+  canvases_.target->w = canvases_.target->h = 44;
+  frame();
+  EXPECT_EQ(state().tab()->view.target.view, fitted({60, 40}, {44, 44}));
+  does(action::ZoomTo{Side::kTarget, 3});
+  const View near = state().tab()->view.target.view;
+  EXPECT_DOUBLE_EQ(near.zoom, 3);
+  canvases_.target->w = 60;
+  frame();
+  EXPECT_EQ(state().tab()->view.target.view, near);
+  does(action::Fit{Side::kTarget});
+  EXPECT_EQ(state().tab()->view.target.view, fitted({60, 40}, {60, 44}));
+}
+
+TEST_F(EditorTest, what_was_refused_is_said_once) {
+  begin_work();
+  does(action::Execute{LayerOrder{{}, 99}});
+  EXPECT_NE(code_of_problem(), "none");
+  const std::string said = state().said;
+  EXPECT_FALSE(said.empty());
+  does(action::Say{"else"});
+  frame();
+  EXPECT_EQ(state().said, "else");
+  EXPECT_EQ(code_of_problem(), "none");
+  EXPECT_GT(state().said_until, now_s_);
+}
+
+TEST_F(EditorTest, preferences_are_put_in_range_and_kept) {
+  Preferences wild;
+  wild.ui_scale = 99;
+  wild.theme = Theme::kLight;
+  does(action::SetPreferences{wild});
+  EXPECT_EQ(state().preferences.ui_scale, 3);
+  ASSERT_TRUE(kept_);
+  EXPECT_EQ(kept_->theme, Theme::kLight);
+}
+
+TEST_F(EditorTest, a_new_document_is_asked_for_first) {
+  does(action::NewDocument{});
+  EXPECT_TRUE(state().asks_new_document);
+  editor_.perform_all({action::NewDocument{testing::new_document(30, 20)}, action::Dismiss{}});
+  settle();
+  EXPECT_FALSE(state().asks_new_document);
+  ASSERT_EQ(state().tabs.size(), 1u);
+  EXPECT_EQ(snapshot()->document.target.image.width(), 30);
+}
+
+TEST_F(EditorTest, a_pin_that_is_gone_is_not_selected) {
+  does(action::OpenSample{});
+  const PinId pin = snapshot()->document.layers[0].pins[0].id;
+  does(action::SelectPin{pin});
+  EXPECT_EQ(state().tab()->view.selected_pin, pin);
+  does(action::Execute{PinRemove{{}, pin}});
+  EXPECT_FALSE(state().tab()->view.selected_pin);
+}
+
+TEST_F(EditorTest, a_recorded_session_replays_to_the_same_document) {
+  EXPECT_FALSE(editor_.record_front(folder_ / "nothing.jsonl").ok());
+  begin_work();
+  ASSERT_TRUE(editor_.record_front(folder_ / "recorded.jsonl").ok());
+  EXPECT_TRUE(snapshot()->modified);
+  const Document recorded = snapshot()->document;
+  does(action::Open{folder_ / "recorded.jsonl"});
+  ASSERT_EQ(state().tabs.size(), 2u);
+  EXPECT_EQ(snapshot()->document, recorded);
+}
+
+} // namespace
+} // namespace oversketch
