@@ -4,7 +4,7 @@
 build_tools=(c++=g++ cmake=cmake ninja=ninja-build pkg-config=pkg-config)
 build_packages=(libeigen3-dev nlohmann-json3-dev libcli11-dev libspng-dev libjpeg-dev libexif-dev libstb-dev
   libxxhash-dev libzip-dev libpugixml-dev libimgui-dev libglfw3-dev libepoxy-dev)
-test_packages=(libgtest-dev)
+test_packages=(libgtest-dev libxtst-dev libx11-dev xvfb libgl1-mesa-dri)
 
 # Prints those of the packages $@ that dpkg does not have installed.  One dpkg-query, no apt: this runs at every start.
 list_absent_packages() {
@@ -57,9 +57,15 @@ install_missing_packages() {
     -o DPkg::Lock::Timeout=300 "${missing[@]}" >&2 || refuse_to_install 'apt-get failed (see above)' "${missing[@]}"
 }
 
-# Configures the preset $1 with the further arguments, unless that has been done.  Ninja sees to later changes.
+# Configures the preset $1 with the settings -DNAME=VALUE, unless that has been done.  Ninja sees to later changes.
 configure_once() {
-  local preset=$1
+  local preset=$1 setting name
   shift
+  for setting in "$@"; do
+    name=${setting#-D}
+    # Configured otherwise, as when a library was missing: anew.
+    grep -qs "^${name%%=*}:[A-Z]*=${name#*=}\$" "$project/build/$preset/CMakeCache.txt" ||
+      rm -f "$project/build/$preset/build.ninja"
+  done
   [[ -e $project/build/$preset/build.ninja ]] || (cd "$project" && cmake --preset "$preset" "$@" >&2)
 }

@@ -151,7 +151,8 @@ Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& re
                             .canvases = reply.canvases,
                             .title = title(),
                             .status = state.said_until > Window::now_s() ? state.said : reply.status,
-                            .busy = editor_.busy() || pictures_.wants_frame(),
+                            .busy = editor_.busy() || frames_due_ > 0 || !sink_.pending().empty() ||
+                                    !window_.input().empty(),
                             .wants_text = ImGui::GetIO().WantTextInput,
                             .pointer = pointer_,
                             .events = events_,
