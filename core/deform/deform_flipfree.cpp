@@ -38,7 +38,9 @@ Result<DeformSystem> DeformSystem::make_flipfree(const Points& outline, const De
   }
   auto display = make_display_mesh(system->region(), options.cell_px, watch);
   if (!display) return display.error();
-  FlipfreePart part{std::move(*system), std::make_shared<const DisplayMesh>(std::move(*display)), nullptr, {}};
+  auto control = std::make_shared<const QuadMesh>(system->region().mesh());
+  FlipfreePart part{
+      std::move(*system), std::move(control), std::make_shared<const DisplayMesh>(std::move(*display)), nullptr, {}};
   part.mesh = std::shared_ptr<const QuadMesh>(part.display, &part.display->mesh);
   part.boundary_s = like == nullptr ? boundary_places(part.system.region().outline(), part.system.region().mesh().cell)
                                     : like->boundary_s;
@@ -60,6 +62,9 @@ Deformation DeformSystem::show_flipfree(const FlipfreePart& part, std::shared_pt
   result.order_violations = solution->order_violations;
   result.iterations = solution->iterations;
   result.handles = static_cast<int>(solution->handles.size());
+  result.handle_points = solution->handles;
+  result.control_mesh = part.control;
+  result.control_positions = std::shared_ptr<const Points>(solution, &solution->positions);
   result.vertices = static_cast<int>(solution->positions.size());
   result.match_cost = solution->match_cost;
   result.flipfree = std::move(solution);

@@ -83,6 +83,8 @@ Result<Deformation> DeformSystem::deform_paper(const PaperPart& part, const Poin
   result.energies = std::move(solution->energies);
   result.order_violations = solution->order_violations;
   result.handles = static_cast<int>(solution->handles.size());
+  result.handle_points = std::move(solution->handles);
+  result.handle_gradients = std::move(solution->gradients);
   return result;
 }
 

@@ -59,6 +59,12 @@ struct Deformation {
   std::vector<double> correspondence;
   /// Energy at the start (the paper's) and after each iteration.
   std::vector<double> energies;
+  /// The mesh that was solved, in the source, and where its vertices went; null where it is the drawn one.
+  std::shared_ptr<const QuadMesh> control_mesh;
+  std::shared_ptr<const Points> control_positions;
+  /// Where the handles lie; of the paper's methods also the energy's gradient by each at the end, px.
+  Points handle_points;
+  Points handle_gradients;
   /// Cells of the control mesh, where that is another than the drawn one, with a corner of det ≤ 0.
   int flipped_control_cells = 0;
   /// Handles that have passed their neighbour.
@@ -118,6 +124,7 @@ private:
   };
   struct FlipfreePart {
     FlipfreeSystem system;
+    std::shared_ptr<const QuadMesh> control;
     std::shared_ptr<const DisplayMesh> display;
     std::shared_ptr<const QuadMesh> mesh;
     /// Arc lengths on region().outline() at which the shown boundary is taken: its points, and between them every

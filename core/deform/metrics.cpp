@@ -76,6 +76,17 @@ OneSided distance_from(const ClosedCurve& curve, const ClosedCurve& to) {
 
 } // namespace
 
+std::vector<CellDistortion> measure_cells(const QuadMesh& source, const Points& deformed) {
+  CHECK(deformed.size() == source.vertices.size(), "one position for each vertex");
+  std::vector<CellDistortion> cells(source.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto corners = corners_of(source, deformed, c);
+    const CentreJacobian centre = at_centre(corners, source.cell);
+    cells[c] = {centre.sigma_ratio, centre.det, is_flipped(corners)};
+  }
+  return cells;
+}
+
 DistortionMetrics measure_distortion(const QuadMesh& source, const Points& deformed) {
   CHECK(deformed.size() == source.vertices.size(), "one position for each vertex");
   CHECK(source.coverage.size() == source.cells.size() && source.cell > 0, "a mesh has coverage and a cell size");

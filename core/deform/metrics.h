@@ -5,6 +5,7 @@
 #include "core/mesh/quad_mesh.h"
 
 #include <span>
+#include <vector>
 
 namespace oversketch {
 
@@ -34,6 +35,16 @@ inline constexpr double kLeastCoverageCounted = 0.3;
 /// Percentiles are linear between neighbouring ranks: the p-th of n sorted values lies at rank p/100 · (n − 1).
 /// @cost linear: about 20 ns a cell.
 DistortionMetrics measure_distortion(const QuadMesh& source, const Points& deformed);
+
+/// The same of one cell.
+struct CellDistortion {
+  double sigma_ratio = 1;
+  double det = 1;
+  bool flipped = false;
+};
+
+/// One for each cell, those that do not count included.
+std::vector<CellDistortion> measure_cells(const QuadMesh& source, const Points& deformed);
 
 /// Distance between two closed curves, px.
 struct SketchDistance {

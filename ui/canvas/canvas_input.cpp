@@ -186,12 +186,14 @@ void CanvasInput::flush(const CanvasFrame& frame, ActionSink& sink) {
 }
 
 ToolContext CanvasInput::context(const CanvasFrame& frame) const {
-  ToolContext context{frame.snapshot, frame.state.preferences, view(Side::kSource), view(Side::kTarget)};
-  context.one_canvas = frame.one_canvas();
-  if (context.one_canvas) context.source_view = context.target_view;
-  context.selected_pin = frame.view.selected_pin;
-  context.scale = frame.scale;
-  return context;
+  const bool one = frame.one_canvas();
+  return {frame.snapshot,
+          frame.state.preferences,
+          view(one ? Side::kTarget : Side::kSource),
+          view(Side::kTarget),
+          one,
+          frame.view.selected_pin,
+          frame.scale};
 }
 
 ToolDrawing CanvasInput::draw(const CanvasFrame& frame) const {

@@ -31,8 +31,8 @@ CanvasLayout lay_out_canvases(const Box& area, double split, bool two, double sp
   layout.target = {area.low, area.low + size};
   if (!two || size.x < splitter_px + 2) return layout;
   const double share = std::clamp(split, kLeastSplit, 1 - kLeastSplit);
-  const double middle = area.low.x + std::clamp(std::round(share * size.x), 1 + splitter_px / 2,
-                                                size.x - 1 - splitter_px / 2);
+  const double middle =
+      area.low.x + std::clamp(std::round(share * size.x), 1 + splitter_px / 2, size.x - 1 - splitter_px / 2);
   const double left = std::floor(middle - splitter_px / 2), right = std::ceil(left + splitter_px);
   layout.source = Box{area.low, {left, area.low.y + size.y}};
   layout.splitter = Box{{left, area.low.y}, {right, area.low.y + size.y}};

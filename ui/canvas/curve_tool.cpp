@@ -24,6 +24,7 @@ void CurveTool::update(std::span<const ToolEvent> events, const ToolContext& con
 
 void CurveTool::handle(const ToolEvent& event, const ToolContext& context, ActionSink& sink) {
   const InputEvent& e = event.event;
+  if (!is_finite(e.position)) return;
   if (sharp_ != e.modifiers.alt && busy()) stale_ = true;
   sharp_ = e.modifiers.alt;
   switch (e.kind) {
@@ -41,6 +42,8 @@ void CurveTool::handle(const ToolEvent& event, const ToolContext& context, Actio
     if (!stroke_) return;
     stroke_->add(e.position, e.time_s);
     drawn_ = drawn_ || distance(e.position, pressed_at_) > context.picture_px(kClick, side_);
+    // One corner alone is a click that went astray.
+    if (drawn_ && corners_.size() == 1) corners_.clear();
     stale_ = true;
     return;
   default:
@@ -73,7 +76,6 @@ void CurveTool::release(const ToolEvent& event, const ToolContext& context, Acti
   stroke_->add(pointer_, event.event.time_s);
   drawn_ = drawn_ || distance(pointer_, pressed_at_) > context.picture_px(kClick, side_);
   if (!drawn_) return click(event, context, sink);
-  // One corner alone is a click that went astray.
   if (corners_.size() < 2) {
     corners_.clear();
     return finish(false, context, sink);
@@ -113,7 +115,7 @@ void CurveTool::finish(bool close, const ToolContext& context, ActionSink& sink)
     plan = plan_stroke(*layer, drawn, wish);
   }
   if (plan.command) {
-    const auto after = apply(gesture_.base(context.snapshot), *plan.command);
+    const auto after = oversketch::apply(gesture_.base(context.snapshot), *plan.command);
     if (!after) plan.why_not = after.error().sentence, plan.command.reset();
   }
   if (plan.command && gesture_.begun() && gesture_.preview(*plan.command, context.snapshot, sink)) {
@@ -191,8 +193,8 @@ ToolDrawing CurveTool::draw(const ToolContext& context) const {
   if (!busy()) {
     if (layer != nullptr)
       drawing.hint = has_curve ? "Draw over a part to change it  [X] other side  [Alt] sharp ends  [Esc] cancel"
-                               : side_ == Side::kSource ? "Draw round the part that you want; the line closes itself"
-                                                        : "Outline the part in the source picture first";
+                     : side_ == Side::kSource ? "Draw round the part that you want; the line closes itself"
+                                              : "Outline the part in the source picture first";
     return drawing;
   }
   Points drawn = corners_;

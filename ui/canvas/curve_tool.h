@@ -1,9 +1,9 @@
 #pragma once
 
-#include "ui/canvas/gesture.h"
 #include "ui/canvas/stroke.h"
 #include "ui/canvas/stroke_plan.h"
 #include "ui/canvas/tool.h"
+#include "ui/canvas/tool_gesture.h"
 
 namespace oversketch {
 
@@ -41,7 +41,7 @@ private:
   Point picture_size(const Document& document) const;
 
   Side side_;
-  Gesture gesture_;
+  ToolGesture gesture_;
   /// The line under a pressed button, and whether it has gone further than a click.
   std::optional<Stroke> stroke_;
   bool drawn_ = false;

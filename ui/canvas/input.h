@@ -59,13 +59,13 @@ struct InputEvent {
   enum class Kind { kMove, kPress, kRelease, kWheel, kKeyDown, kKeyRepeat, kKeyUp, kFocusLost };
   Kind kind = Kind::kMove;
   /// Window pixels, of the last cursor event before it.
-  Point position;
+  Point position = {};
   double time_s = 0;
   MouseButton button = MouseButton::kLeft;
   Key key = Key::kNone;
-  Modifiers modifiers;
+  Modifiers modifiers = {};
   /// Of the wheel.
-  Point scroll;
+  Point scroll = {};
 };
 
 using InputEvents = std::vector<InputEvent>;

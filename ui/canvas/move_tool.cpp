@@ -12,6 +12,8 @@ namespace {
 /// How near the pointer must be to a corner; how far a press may wander and still be a click.  Design px.
 constexpr double kOnCorner = 9, kClick = 3;
 constexpr double kTurnStep_deg = 15, kScaleStep = 0.05;
+/// Further than any command takes a layer.
+constexpr double kFurthest = 1 << 22;
 constexpr double kDegree = std::numbers::pi / 180;
 
 bool is_in_frame(const Frame& frame, Point p) {
@@ -66,6 +68,7 @@ void MoveTool::update(std::span<const ToolEvent> events, const ToolContext& cont
 
 void MoveTool::handle(const ToolEvent& event, const ToolContext& context, ActionSink& sink) {
   const InputEvent& e = event.event;
+  if (!is_finite(e.position)) return;
   if (drag_ != Drag::kNone && shift_ != e.modifiers.shift) stale_ = true;
   shift_ = e.modifiers.shift;
   switch (e.kind) {
@@ -166,7 +169,8 @@ std::optional<Command> MoveTool::command() const {
   case Drag::kMove: {
     Point by = pointer_ - from_;
     if (shift_) (std::abs(by.x) >= std::abs(by.y) ? by.y : by.x) = 0;
-    const WholeOffset whole{static_cast<int>(std::lround(by.x)), static_cast<int>(std::lround(by.y))};
+    const auto whole_px = [](double x) { return static_cast<int>(std::lround(std::clamp(x, -kFurthest, kFurthest))); };
+    const WholeOffset whole{whole_px(by.x), whole_px(by.y)};
     if (whole == WholeOffset{}) return std::nullopt;
     return LayerMove{layer_, whole};
   }
@@ -233,7 +237,7 @@ ToolDrawing MoveTool::draw(const ToolContext& context) const {
   // The frame goes with the pointer at once; the picture follows as fast as it can.
   const auto moved = command();
   if (moved)
-    if (auto after = apply(shown, *moved)) shown = std::move(*after);
+    if (auto after = oversketch::apply(shown, *moved)) shown = std::move(*after);
   const Layer* layer = busy() && layer_ ? shown.find(*layer_) : selected_layer(shown);
   const auto frame = layer != nullptr ? frame_of(*layer) : std::nullopt;
   if (!frame) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ui/canvas/gesture.h"
 #include "ui/canvas/tool.h"
+#include "ui/canvas/tool_gesture.h"
 
 #include <array>
 
@@ -12,8 +12,8 @@ using Frame = std::array<Point, 4>;
 std::optional<Frame> frame_of(const Layer& layer);
 
 /// Moves, turns and scales the pasted part: a drag inside moves it by whole pixels, one outside its frame turns it, one
-/// at a corner scales it, about the frame's middle; Shift keeps to an axis, to 15°, to steps of 5 %.  Arrows nudge it by
-/// a pixel, with Shift by ten; as long as one is held it is one step.  A press on another layer's part selects that.
+/// at a corner scales it, about the frame's middle; Shift keeps to an axis, to 15°, to steps of 5 %.  Arrows nudge it
+/// by a pixel, with Shift by ten; as long as one is held it is one step.  A press on another layer's part selects that.
 class MoveTool : public CanvasTool {
 public:
   void update(std::span<const ToolEvent> events, const ToolContext& context, ActionSink& sink) override;
@@ -42,7 +42,7 @@ private:
   std::optional<Command> command() const;
   CursorShape cursor(const ToolContext& context) const;
 
-  Gesture gesture_;
+  ToolGesture gesture_;
   Drag drag_ = Drag::kNone;
   std::optional<LayerId> layer_;
   Point from_;

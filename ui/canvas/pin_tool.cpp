@@ -35,6 +35,7 @@ void PinTool::update(std::span<const ToolEvent> events, const ToolContext& conte
 
 void PinTool::handle(const ToolEvent& event, const ToolContext& context, ActionSink& sink) {
   const InputEvent& e = event.event;
+  if (!is_finite(e.position)) return;
   switch (e.kind) {
   case InputEvent::Kind::kFocusLost:
     return abandon(sink);
@@ -76,7 +77,7 @@ void PinTool::press(const ToolEvent& event, const ToolContext& context, ActionSi
   }
   const auto end = nearest_end(*layer, event.side, pointer_, context);
   if (!end)
-    return sink.emit(action::Say{!half_                           ? "Click on the outline to begin a pin"
+    return sink.emit(action::Say{!half_                         ? "Click on the outline to begin a pin"
                                  : half_->side == Side::kSource ? "Click on the sketch, where the pin belongs"
                                                                 : "Click on the outline, where the pin belongs"});
   set_end(*end, context, sink);
@@ -91,7 +92,8 @@ void PinTool::set_end(const End& end, const ToolContext& context, ActionSink& si
   const End& source = end.side == Side::kSource ? end : *half_;
   const End& target = end.side == Side::kSource ? *half_ : end;
   const Command add = PinAdd{document.selected, source.at, target.at};
-  if (const auto after = apply(document, add); !after) return sink.emit(action::Say{after.error().sentence});
+  if (const auto after = oversketch::apply(document, add); !after)
+    return sink.emit(action::Say{after.error().sentence});
   sink.emit(action::Execute{add});
   sink.emit(action::SelectPin{PinId{document.next_pin}});
   half_.reset();
@@ -133,7 +135,8 @@ std::optional<PinTool::Hit> PinTool::hit(const Layer& layer, Side side, Point at
   double nearest = context.picture_px(kOnPin, side);
   const auto look = [&](Side on) {
     for (const Pin& pin : layer.pins)
-      if (const double away = distance(at, end_of(layer, pin, on)); away <= nearest) nearest = away, best = {pin.id, on};
+      if (const double away = distance(at, end_of(layer, pin, on)); away <= nearest)
+        nearest = away, best = {pin.id, on};
   };
   look(side);
   if (context.one_canvas) look(other(side));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ui/canvas/gesture.h"
 #include "ui/canvas/tool.h"
+#include "ui/canvas/tool_gesture.h"
 
 namespace oversketch {
 
@@ -40,7 +40,7 @@ private:
   /// The place of the curve that is meant; nothing when none is near.
   std::optional<End> nearest_end(const Layer& layer, Side side, Point at, const ToolContext& context) const;
 
-  Gesture gesture_;
+  ToolGesture gesture_;
   std::optional<End> half_;
   std::optional<Drag> drag_;
   Point pointer_;

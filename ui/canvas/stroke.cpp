@@ -49,8 +49,7 @@ Points average(const Points& line, double sigma) {
     Point sum = line[static_cast<std::size_t>(i)];
     double weights = 1;
     for (std::ptrdiff_t k = 1; k <= half; ++k) {
-      const double w =
-          half == widest ? whole[static_cast<std::size_t>(k)] : weight(static_cast<double>(k) / narrow);
+      const double w = half == widest ? whole[static_cast<std::size_t>(k)] : weight(static_cast<double>(k) / narrow);
       sum += w * (line[static_cast<std::size_t>(i - k)] + line[static_cast<std::size_t>(i + k)]);
       weights += 2 * w;
     }
@@ -66,9 +65,9 @@ double Stroke::sigma_px(Smoothing smoothing) {
   case Smoothing::kNone:
     return 0;
   case Smoothing::kBasic:
-    return 3;
+    return 4;
   case Smoothing::kStabiliser:
-    return 12;
+    return 16;
   }
   return 0;
 }

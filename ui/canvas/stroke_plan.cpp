@@ -16,8 +16,7 @@ Points curve_of(const Layer& layer, Side side) {
   return side == Side::kSource ? layer.outline : layer.sketch_in_target();
 }
 
-Result<OversketchResult> redraw_part(const Layer& layer, const Points& stroke, const StrokeAsk& ask,
-                                     double tolerance) {
+Result<OversketchResult> redraw_part(const Layer& layer, const Points& stroke, const StrokeAsk& ask, double tolerance) {
   const ClosedCurve curve(curve_of(layer, ask.side));
   const Similarity placed = layer.placement.to_target();
   std::vector<double> pin_s;
@@ -29,6 +28,19 @@ Result<OversketchResult> redraw_part(const Layer& layer, const Points& stroke, c
   options.sharp = ask.sharp;
   options.pin_s = pin_s;
   return oversketch(curve, stroke, options);
+}
+
+/// The part of the curve as an open line.
+Points line_along(const ClosedCurve& curve, const ArcInterval& part) {
+  Points line{curve.at(part.begin)};
+  const int first = curve.segment_at(part.begin);
+  for (int k = 1; k <= curve.size(); ++k) {
+    const int i = (first + k) % curve.size();
+    if (curve.forward(part.begin, curve.s_at(i)) >= part.length) break;
+    line.push_back(curve.points()[static_cast<std::size_t>(i)]);
+  }
+  line.push_back(curve.at(part.begin + part.length));
+  return line;
 }
 
 template <class Edit>
@@ -120,6 +132,9 @@ StrokePlan plan_stroke(const Layer& layer, const Points& stroke, const StrokeAsk
     return plan_closed(layer, stroke, first);
   }
   const auto redrawn = redraw_part(layer, stroke, ask, ask.tolerance_px);
+  if (redrawn && redrawn->whole_new) {
+    if (StrokePlan closed = plan_closed(layer, stroke, ask); closed.command) return closed;
+  }
   if (redrawn) {
     plan.ghost = redrawn->ghost;
     plan.closes = redrawn->whole_new;
@@ -139,10 +154,25 @@ Points forecast_ghost(const Layer& layer, const Points& stroke, const StrokeAsk&
   const Points points = curve_of(layer, ask.side);
   if (points.empty() || stroke.size() < 2) return {};
   const ClosedCurve curve(points);
-  if (curve.nearest(stroke.front()).distance > ask.tolerance_px) return {};
-  const double reach = std::max(ask.tolerance_px, 1.01 * curve.nearest(stroke.back()).distance);
-  const auto redrawn = redraw_part(layer, stroke, ask, reach);
-  return redrawn ? redrawn->ghost : Points();
+  const CurvePosition first = curve.nearest(stroke.front()), last = curve.nearest(stroke.back());
+  if (first.distance > ask.tolerance_px) return {};
+  StrokeAsk likelier = ask;
+  likelier.other_side = false;
+  const auto redrawn = redraw_part(layer, stroke, likelier, std::max(ask.tolerance_px, 1.01 * last.distance));
+  ArcInterval part{first.s, curve.forward(first.s, last.s)};
+  const auto rest_of = [&](const ArcInterval& arc) {
+    return ArcInterval{curve.wrap(arc.begin + arc.length), curve.length() - arc.length};
+  };
+  if (redrawn && !redrawn->whole_new) {
+    part = redrawn->replaced;
+  } else {
+    // What comes of it is no curve; then the part that lies nearer to the stroke's middle is meant.
+    const Point middle = stroke[stroke.size() / 2];
+    const ArcInterval rest = rest_of(part);
+    if (distance(curve.at(rest.begin + rest.length / 2), middle) < distance(curve.at(part.begin + part.length / 2), middle))
+      part = rest;
+  }
+  return line_along(curve, ask.other_side ? rest_of(part) : part);
 }
 
 Points close_line(const Points& line, double reach) {
@@ -168,16 +198,17 @@ Points close_line(const Points& line, double reach) {
 Points clamp_to_picture(const Points& line, Point size, bool closed) {
   const auto inside = [&](Point p) { return p.x >= 0 && p.y >= 0 && p.x <= size.x && p.y <= size.y; };
   Points out;
-  std::optional<Point> left_at;
+  Point left_at;
+  bool outside = false;
   const auto push = [&](Point p) {
     const Point held{std::clamp(p.x, 0.0, size.x), std::clamp(p.y, 0.0, size.y)};
     if (out.empty() || !(out.back() == held)) out.push_back(held);
   };
   const auto enter = [&](Point p) {
-    if (left_at)
-      for (const Point corner : corners_between(edge_place(*left_at, size), edge_place(p, size), size))
+    if (outside)
+      for (const Point corner : corners_between(edge_place(left_at, size), edge_place(p, size), size))
         push(corner);
-    left_at.reset();
+    outside = false;
     push(p);
   };
   if (line.size() == 1 && inside(line[0])) push(line[0]);
@@ -186,7 +217,7 @@ Points clamp_to_picture(const Points& line, Point size, bool closed) {
     if (!part) continue;
     enter(lerp(line[i], line[i + 1], part->first));
     push(lerp(line[i], line[i + 1], part->second));
-    if (part->second < 1) left_at = out.back();
+    if (part->second < 1) left_at = out.back(), outside = true;
   }
   if (closed && out.size() > 1 && !inside(line.front()) && !inside(line.back()))
     for (const Point corner : corners_between(edge_place(out.back(), size), edge_place(out.front(), size), size))

@@ -41,8 +41,8 @@ struct StrokePlan {
 /// @cost that of oversketch(), twice.
 StrokePlan plan_stroke(const Layer& layer, const Points& stroke, const StrokeAsk& ask);
 
-/// The part that a stroke still being drawn would replace if it ended at the curve's nearest point; empty when it does
-/// not begin near the curve.
+/// The part that a stroke still being drawn would replace if it ended at the curve's nearest point, whether that can be
+/// done or not; empty when it does not begin near the curve.
 Points forecast_ghost(const Layer& layer, const Points& stroke, const StrokeAsk& ask);
 
 /// The ends of a line brought together: what is left when the loose ends beyond its crossing, or beyond its nearest

@@ -1,10 +1,10 @@
-#include "ui/canvas/gesture.h"
+#include "ui/canvas/tool_gesture.h"
 
 namespace oversketch {
 
-Result<void> Gesture::preview(const Command& command, const Snapshot& snapshot, ActionSink& sink) {
+Result<void> ToolGesture::preview(const Command& command, const Snapshot& snapshot, ActionSink& sink) {
   if (last_ == command) return {};
-  const auto after = apply(base(snapshot), command);
+  const auto after = oversketch::apply(base(snapshot), command);
   if (!after) return after.error();
   if (!base_) base_ = snapshot.document;
   last_ = command;
@@ -12,13 +12,13 @@ Result<void> Gesture::preview(const Command& command, const Snapshot& snapshot, 
   return {};
 }
 
-void Gesture::commit(ActionSink& sink) {
+void ToolGesture::commit(ActionSink& sink) {
   if (begun()) sink.emit(action::Commit{});
   base_.reset();
   last_.reset();
 }
 
-void Gesture::abandon(ActionSink& sink) {
+void ToolGesture::abandon(ActionSink& sink) {
   if (begun()) sink.emit(action::Abandon{});
   base_.reset();
   last_.reset();

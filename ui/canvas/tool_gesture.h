@@ -8,7 +8,7 @@
 namespace oversketch {
 
 /// A tool's side of a gesture: begins at the first preview that is accepted, ends with one step of history or none.
-class Gesture {
+class ToolGesture {
 public:
   /// The document that the gesture changes: the one before its first preview.
   const Document& base(const Snapshot& snapshot) const { return base_ ? *base_ : snapshot.document; }
