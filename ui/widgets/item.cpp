@@ -1,0 +1,120 @@
+#include "ui/widgets/item.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oversketch {
+namespace {
+
+/// The time since when the pointer has rested on the last item; negative while it does not.  Kept by ImGui, by window
+/// and id.
+float rest_since(const DrawContext& context, std::string_view id, bool hovered) {
+  const IdScope scope(id);
+  float& since = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("##rest"), -1.0F);
+  if (!hovered)
+    since = -1;
+  else if (since < 0)
+    since = static_cast<float>(context.now_s);
+  return since;
+}
+
+void show_tip(const DrawContext& context, const Tip& tip) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.look.px(10), context.look.px(7)));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(context.look.px(300));
+  ImGui::TextUnformatted(tip.text.data(), tip.text.data() + tip.text.size());
+  ImGui::PopTextWrapPos();
+  if (!tip.keys.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, context.look.ink_quiet);
+    ImGui::TextUnformatted(tip.keys.data(), tip.keys.data() + tip.keys.size());
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+} // namespace
+
+void register_box(const DrawContext& context, std::string_view id, ImVec2 corner, ImVec2 end) {
+  context.widgets.add(id, {corner.x, corner.y, end.x - corner.x, end.y - corner.y});
+}
+
+void finish_item(const DrawContext& context, std::string_view id, const Tip& tip) {
+  const ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImVec2 clip_low = list->GetClipRectMin(), clip_high = list->GetClipRectMax();
+  const float x = std::max(low.x, clip_low.x), y = std::max(low.y, clip_low.y);
+  const float w = std::min(high.x, clip_high.x) - x, h = std::min(high.y, clip_high.y) - y;
+  if (w <= 0 || h <= 0) return;
+  context.widgets.add(id, {x, y, w, h}, tip.text);
+
+  const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !ImGui::IsMouseDown(0);
+  const float since = rest_since(context, id, hovered);
+  if (since < 0 || tip.text.empty()) return;
+  if (context.now_s - since >= kTipDelay_s - 1e-3)
+    show_tip(context, tip);
+  else
+    context.reply.ask_frame_at(since + kTipDelay_s);
+}
+
+Measures measures_of(const ThemeLook& look, float width) {
+  return {look.px(24), look.px(4), std::min(look.px(112), std::floor(width * 0.42F))};
+}
+
+std::string elided(std::string_view text, float width) {
+  const auto measure = [](std::string_view part) {
+    return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
+  };
+  if (measure(text) <= width) return std::string(text);
+  const std::string_view dots = "…";
+  std::size_t keep = text.size();
+  while (keep > 0 && measure(text.substr(0, keep)) + measure(dots) > width) {
+    --keep;
+    // Not within a character of several bytes.
+    while (keep > 0 && (static_cast<unsigned char>(text[keep]) & 0xC0) == 0x80)
+      --keep;
+  }
+  return keep == 0 ? std::string() : std::string(text.substr(0, keep)) + std::string(dots);
+}
+
+void draw_text(ImVec2 corner, ImVec2 end, PackedColor color, std::string_view text, float align) {
+  const std::string shown = elided(text, end.x - corner.x);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
+  const ImVec2 at(std::floor(corner.x + align * (end.x - corner.x - size.x)),
+                  std::floor(corner.y + (end.y - corner.y - size.y) / 2));
+  ImGui::GetWindowDrawList()->AddText(at, faded(color, ImGui::GetStyle().Alpha), shown.c_str());
+}
+
+PackedColor mixed(PackedColor color, PackedColor other, float part) {
+  PackedColor result = 0;
+  for (const int shift : {0, 8, 16, 24}) {
+    const auto a = static_cast<float>(color >> shift & 0xFF), b = static_cast<float>(other >> shift & 0xFF);
+    result |= static_cast<PackedColor>(std::lround(a + (b - a) * part)) << shift;
+  }
+  return result;
+}
+
+RowBox begin_row(const DrawContext& context, std::string_view label) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const Measures m = measures_of(context.look, width);
+  const float left = label.empty() ? 0 : m.label;
+  draw_text(at, ImVec2(at.x + left - m.gap, at.y + m.row), context.look.ink_quiet, label);
+  const RowBox box{ImVec2(at.x + left, at.y), ImVec2(at.x + std::max(width, left + 1), at.y + m.row), at.x};
+  ImGui::SetCursorScreenPos(box.corner);
+  return box;
+}
+
+void end_row(const DrawContext& context, const RowBox& box) {
+  ImGui::SetCursorScreenPos(ImVec2(box.left, box.end.y + context.look.px(4)));
+}
+
+void draw_note(const DrawContext& context, std::string_view text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, context.look.ink_quiet);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+} // namespace oversketch

@@ -1,0 +1,48 @@
+#include "ui/widgets/section.h"
+
+#include <algorithm>
+
+namespace oversketch {
+
+Section::Section(const DrawContext& context, std::string_view id, std::string_view title, std::string_view summary,
+                 std::string_view tip, bool open_at_first)
+    : context_(context), id_(id) {
+  const ThemeLook& look = context.look;
+  ImGui::PushID(id_.c_str());
+  corner_ = ImGui::GetCursorScreenPos();
+  width_ = std::max(1.0F, ImGui::GetContentRegionAvail().x);
+  int& open = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##open"), open_at_first ? 1 : 0);
+  const float height = look.px(38);
+  if (ImGui::InvisibleButton("##title", ImVec2(width_, height))) open = 1 - open;
+  const bool hovered = ImGui::IsItemHovered();
+  finish_item(context, id_ + ".title", {std::string(tip), "Click folds and unfolds it"});
+  open_ = open != 0;
+
+  const ImVec2 end(corner_.x + width_, corner_.y + height);
+  float used = 0;
+  {
+    const FontScope bold(look.bold);
+    used = ImGui::CalcTextSize(title.data(), title.data() + title.size()).x;
+    draw_text(corner_, end, hovered || open_ ? look.ink : look.ink_quiet, title);
+  }
+  draw_text(ImVec2(corner_.x + used + look.px(12), corner_.y), end, look.ink_quiet, summary, 1);
+  ImGui::SetCursorScreenPos(ImVec2(corner_.x, open_ ? end.y : end.y - look.px(4)));
+}
+
+Section::~Section() {
+  const ThemeLook& look = context_.look;
+  ImGui::Dummy(ImVec2(width_, look.px(open_ ? 9 : 3)));
+  const ImVec2 end(corner_.x + width_, ImGui::GetItemRectMax().y);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 low = list->GetClipRectMin(), high = list->GetClipRectMax();
+  const float pad = look.px(kPanelPad);
+  list->PushClipRect(ImVec2(corner_.x - pad, low.y), ImVec2(end.x + pad, high.y), false);
+  list->AddRectFilled(ImVec2(corner_.x - pad, end.y), ImVec2(end.x + pad, end.y + look.px(1)), look.line);
+  list->PopClipRect();
+  ImGui::SetCursorScreenPos(ImVec2(corner_.x, end.y + look.px(1)));
+  const ImVec2 shown_low(corner_.x - pad, std::max(corner_.y, low.y)), shown_high(end.x + pad, std::min(end.y, high.y));
+  if (shown_high.y > shown_low.y) register_box(context_, id_, shown_low, shown_high);
+  ImGui::PopID();
+}
+
+} // namespace oversketch
