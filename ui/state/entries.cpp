@@ -69,7 +69,7 @@ bool is_visible(C c) {
 void rename(C c) {
   c.flags.renaming = selected(c)->id;
   c.flags.rename_starts = true;
-  c.flags.side_panel = true;
+  c.flags.side_shown() = true;
 }
 void remove_pin(C c) {
   c.sink.emit(action::Execute{PinRemove{{}, *c.state.tab()->view.selected_pin}});
@@ -108,6 +108,12 @@ void toggle_overlays(C c) {
   Overlays overlays = c.state.overlays;
   overlays.shown = !overlays.shown;
   c.sink.emit(action::SetOverlays{overlays});
+}
+bool several_tabs(C c) {
+  return c.state.tabs.size() > 1;
+}
+void next_tab(C c) {
+  c.sink.emit(action::SelectTab{(c.state.front + 1) % c.state.tabs.size()});
 }
 void close_tab(C c) {
   c.sink.emit(action::CloseTab{c.state.front});
@@ -360,9 +366,18 @@ std::span<const Entry> entries() {
             plain(Key::kF4),
             {},
             false,
-            [](C c) { c.flags.side_panel = !c.flags.side_panel; },
+            [](C c) { c.flags.side_shown() = !c.flags.side_shown(); },
             nullptr,
-            [](C c) { return c.flags.side_panel; }},
+            [](C c) { return c.flags.side_shown(); }},
+      Entry{"view.next_tab",
+            Menu::kView,
+            "Next document",
+            "The tab to the right.",
+            {Key::kTab, {.ctrl = true}},
+            {},
+            true,
+            next_tab,
+            several_tabs},
 
       Entry{"help.shortcuts",
             Menu::kHelp,

@@ -133,15 +133,9 @@ std::span<const CompareRow> compare_rows() {
 }
 
 std::span<const ToolRow> tool_rows() {
-  static constexpr std::array kRows = {
-      ToolRow{"outline", Tool::kOutline,
-              "Outline: draw round the part in the source; draw over a piece of the outline to change it"},
-      ToolRow{"sketch", Tool::kSketch,
-              "Sketch: draw the boundary that the part shall take; draw over a piece of it to change it"},
-      ToolRow{"pin", Tool::kPin, "Pin: click a point of the outline, then the point of the sketch it shall meet"},
-      ToolRow{"move", Tool::kMove, "Move: drag the part; drag outside its frame to turn it, a corner to scale it"},
-      ToolRow{"pan", Tool::kPan, "Pan: drag the picture; the wheel zooms"},
-  };
+  static constexpr std::array kRows = {ToolRow{"outline", Tool::kOutline}, ToolRow{"sketch", Tool::kSketch},
+                                       ToolRow{"pin", Tool::kPin}, ToolRow{"move", Tool::kMove},
+                                       ToolRow{"pan", Tool::kPan}};
   return kRows;
 }
 

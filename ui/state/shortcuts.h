@@ -13,12 +13,17 @@ namespace oversketch {
 
 /// What the window itself shows or hides; neither the editor's nor a document's.
 struct WindowFlags {
+  /// Beside the canvases where the window is wide enough; in a narrow one over them, and only when asked for.
   bool side_panel = true;
+  bool side_over = false;
+  bool narrow = false;
   /// The layer whose name is being typed.
   std::optional<LayerId> renaming;
   bool rename_starts = false;
   /// The canvas under the pointer.
   std::optional<Side> under_pointer;
+
+  bool& side_shown() { return narrow ? side_over : side_panel; }
 };
 
 /// What an entry decides by, and where it puts what it wants.
@@ -105,8 +110,6 @@ std::span<const CompareRow> compare_rows();
 struct ToolRow {
   std::string_view id;
   Tool tool;
-  /// For the status bar, while the tool is in hand.
-  std::string_view hint;
 };
 std::span<const ToolRow> tool_rows();
 

@@ -1,0 +1,160 @@
+#include "ui/editor_window.h"
+
+#include "ui/panels/empty_state.h"
+#include "ui/panels/menu_bar.h"
+#include "ui/panels/side_panel.h"
+#include "ui/panels/status_bar.h"
+#include "ui/panels/tab_bar.h"
+#include "ui/panels/tool_strip.h"
+#include "ui/widgets/item.h"
+#include "ui/window_layout.h"
+#include "ui/window_parts.h"
+
+#include <algorithm>
+
+namespace oversketch {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// What every part of the window draws from, for one frame.
+struct Frame {
+  const EditorState& state;
+  std::shared_ptr<const Snapshot> snapshot;
+  WindowState::Parts& parts;
+  Pictures& pictures;
+  const InputEvents& events;
+  const DrawContext& context;
+  WindowLayout layout;
+  EntryContext entries;
+};
+
+/// A part of the window as a child with its own clipping.
+template <class Draw>
+void draw_area(const char* name, const Area& area, ImGuiWindowFlags flags, const Draw& draw) {
+  if (area.width() < 1 || area.height() < 1) return;
+  ImGui::SetCursorScreenPos(area.low);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::BeginChild(name, ImVec2(area.width(), area.height()), false, flags | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar();
+  draw();
+  ImGui::EndChild();
+}
+
+WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, const DrawContext& context) {
+  return lay_out_window({.size = ImGui::GetIO().DisplaySize,
+                         .scale = context.look.scale,
+                         .side_width = parts.side_width,
+                         .side = parts.flags.side_panel,
+                         .side_over = parts.flags.side_over,
+                         .tabs = !state.tabs.empty()});
+}
+
+std::optional<PointerPlace> find_pointer(const EditorState& state, const DrawContext& context) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (state.tab() == nullptr) return std::nullopt;
+  for (const Side side : {Side::kSource, Side::kTarget}) {
+    const auto& box = context.reply.canvases.at(side);
+    if (!box || mouse.x < box->x || mouse.y < box->y || mouse.x >= box->x + box->w || mouse.y >= box->y + box->h)
+      continue;
+    const Point inside{static_cast<double>(mouse.x - box->x), static_cast<double>(mouse.y - box->y)};
+    return PointerPlace{side, state.tab()->view.canvas(side).view.to_picture(inside)};
+  }
+  return std::nullopt;
+}
+
+/// The side panel's left edge can be dragged.
+void draw_side_edge(Frame& frame) {
+  if (frame.layout.narrow || frame.layout.side.empty()) return;
+  const float reach = frame.context.look.px(3);
+  ImGui::SetCursorScreenPos(ImVec2(frame.layout.side.low.x - reach, frame.layout.side.low.y));
+  ImGui::InvisibleButton("##edge", ImVec2(2 * reach, frame.layout.side.height()));
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActive()) {
+    const float width = (frame.layout.side.high.x - ImGui::GetIO().MousePos.x) / frame.context.look.scale;
+    frame.parts.side_width = std::clamp(width, kLeastSide, kMostSide);
+  }
+  finish_item(frame.context, "panel.side.edge", {"Drag to make the side panel wider or narrower.", {}});
+}
+
+void draw_middle(Frame& frame) {
+  const ThemeLook& look = frame.context.look;
+  const Area& area = frame.layout.canvases;
+  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.canvas);
+  if (frame.state.tab() == nullptr)
+    draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
+}
+
+void draw_strip(Frame& frame) {
+  const Area& area = frame.layout.strip;
+  const ThemeLook& look = frame.context.look;
+  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.panel);
+  draw_area("##strip", area, ImGuiWindowFlags_NoScrollbar,
+            [&] { draw_tool_strip(frame.entries, area, frame.context); });
+  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(area.high.x - look.px(1), area.low.y), area.high, look.line);
+  register_box(frame.context, "panel.tools", area.low, area.high);
+}
+
+void draw_status(Frame& frame) {
+  const Tab* tab = frame.state.tab();
+  const auto pointer = find_pointer(frame.state, frame.context);
+  frame.parts.flags.under_pointer = pointer ? std::optional(pointer->side) : std::nullopt;
+  const double now = frame.context.now_s;
+  const StatusModel model =
+      make_status_model(frame.state, frame.snapshot.get(),
+                        tab != nullptr ? tab->session->activity() : LiveSession::Activity(), pointer, "", now);
+  if (model.said) frame.context.reply.ask_frame_at(frame.state.said_until);
+  draw_area("##status", frame.layout.status, 0, [&] { draw_status_bar(model, frame.layout.status, frame.context); });
+}
+
+void draw_parts(Frame& frame) {
+  draw_menu_bar(frame.entries, frame.layout.menu, frame.context);
+  if (!frame.layout.tabs.empty())
+    draw_area("##tabs", frame.layout.tabs, 0,
+              [&] { draw_tab_bar(make_tab_bar_model(frame.state), frame.layout.tabs, frame.context); });
+  draw_strip(frame);
+  draw_middle(frame);
+  draw_status(frame);
+  draw_side_edge(frame);
+  if (!frame.layout.side.empty())
+    draw_side_panel({frame.state, frame.snapshot.get(), frame.parts, frame.pictures, frame.entries}, frame.layout.side,
+                    frame.context);
+  const Area& menu = frame.layout.menu;
+  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(menu.low.x, menu.high.y - frame.context.look.px(1)), menu.high,
+                                            frame.context.look.line);
+}
+
+} // namespace
+
+void draw_editor_window(const EditorState& state, WindowState& window, Pictures& pictures, const InputEvents& events,
+                        const DrawContext& context) {
+  WindowState::Parts& parts = window.parts();
+  const auto snapshot = state.tab() == nullptr ? nullptr : state.tab()->session->snapshot();
+  Frame frame{state,
+              snapshot,
+              parts,
+              pictures,
+              events,
+              context,
+              lay_out(state, parts, context),
+              {state, snapshot.get(), parts.flags, context.sink}};
+  parts.flags.narrow = frame.layout.narrow;
+  read_keys(events, ImGui::GetIO().WantTextInput, frame.entries);
+
+  const ThemeLook& look = context.look;
+  ImGui::SetNextWindowPos(ImVec2(0, 0));
+  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  const float pad = std::max(0.0F, (frame.layout.menu.height() - ImGui::GetFontSize()) / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(look.px(7), pad));
+  ImGui::Begin("##editor", nullptr, kFixed | ImGuiWindowFlags_MenuBar);
+  ImGui::PopStyleVar(3);
+  draw_parts(frame);
+  ImGui::End();
+}
+
+} // namespace oversketch

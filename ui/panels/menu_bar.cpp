@@ -1,0 +1,123 @@
+#include "ui/panels/menu_bar.h"
+
+#include "ui/widgets/item.h"
+
+#include <array>
+
+namespace oversketch {
+namespace {
+
+struct MenuTitle {
+  Menu menu;
+  const char* id;
+  const char* label;
+  const char* tip;
+};
+constexpr std::array kMenus = {
+    MenuTitle{Menu::kFile, "menu.file", "File", "Opening, saving and exporting."},
+    MenuTitle{Menu::kEdit, "menu.edit", "Edit", "Undo, redo and preferences."},
+    MenuTitle{Menu::kLayer, "menu.layer", "Layer", "Pasted parts: add, order, remove."},
+    MenuTitle{Menu::kView, "menu.view", "View", "Zoom, overlays and comparison."},
+    MenuTitle{Menu::kHelp, "menu.help", "Help", "Keys, and about this program."},
+};
+
+void draw_entry(const Entry& entry, const EntryContext& entries, const DrawContext& context) {
+  if (entry.begins_group) ImGui::Separator();
+  const std::string label = label_of(entry, entries), keys = to_string(entry.chord);
+  const bool checked = entry.checked != nullptr && entry.checked(entries);
+  const IdScope scope(entry.id);
+  if (ImGui::MenuItem(label.c_str(), keys.c_str(), checked, is_enabled(entry, entries))) entry.act(entries);
+  finish_item(context, "menu." + std::string(entry.id), {std::string(entry.help), keys_of(entry)});
+}
+
+void draw_recent(const EntryContext& entries, const DrawContext& context) {
+  const auto& recent = entries.state.preferences.recent_files;
+  const bool open = ImGui::BeginMenu("Recent", !recent.empty());
+  finish_item(context, "menu.file.recent", {"What was opened before, the newest first."});
+  if (!open) return;
+  for (std::size_t i = 0; i < recent.size() && i < 12; ++i) {
+    const IdScope scope(std::to_string(i));
+    if (ImGui::MenuItem(recent[i].filename().string().c_str())) entries.sink.emit(action::Open{recent[i]});
+    finish_item(context, "menu.file.recent." + std::to_string(i), {recent[i].string()});
+  }
+  ImGui::EndMenu();
+}
+
+void draw_submenu(const char* label, const char* id, const char* tip, const EntryContext& entries,
+                  const DrawContext& context, void (*draw)(const EntryContext&, std::string_view, const DrawContext&)) {
+  const bool open = ImGui::BeginMenu(label);
+  finish_item(context, id, {tip});
+  if (!open) return;
+  draw(entries, id, context);
+  ImGui::EndMenu();
+}
+
+void draw_menu(const MenuTitle& title, const EntryContext& entries, const DrawContext& context) {
+  const bool open = ImGui::BeginMenu(title.label);
+  finish_item(context, title.id, {open ? "" : title.tip});
+  if (!open) return;
+  for (const Entry& entry : oversketch::entries()) {
+    if (entry.menu != title.menu) continue;
+    draw_entry(entry, entries, context);
+    if (entry.id == "file.sample") draw_recent(entries, context);
+    if (entry.id != "view.overlays") continue;
+    draw_submenu("Overlays", "menu.view.overlay", "Which of them are drawn.", entries, context, draw_overlay_entries);
+    draw_submenu("Compare with", "menu.view.compare", "Another result over a part of the picture.", entries, context,
+                 draw_compare_entries);
+  }
+  ImGui::EndMenu();
+}
+
+} // namespace
+
+std::string document_title(const EditorState& state, const Snapshot* snapshot) {
+  if (state.tab() == nullptr) return {};
+  return state.tab()->name + (snapshot != nullptr && snapshot->modified ? " *" : "");
+}
+
+void draw_overlay_entries(const EntryContext& entries, std::string_view prefix, const DrawContext& context) {
+  Overlays overlays = entries.state.overlays;
+  bool changed = false;
+  for (const OverlayRow& row : overlay_rows()) {
+    bool& on = overlays.*row.on;
+    // A switch that is thrown while all are hidden shows them again: otherwise nothing would be seen of it.
+    if (ImGui::MenuItem(std::string(row.label).c_str(), nullptr, on && overlays.shown)) {
+      on = !(on && entries.state.overlays.shown);
+      overlays.shown = true;
+      changed = true;
+    }
+    finish_item(context, std::string(prefix) + "." + std::string(row.id), {std::string(row.help)});
+  }
+  if (changed) entries.sink.emit(action::SetOverlays{overlays});
+}
+
+void draw_compare_entries(const EntryContext& entries, std::string_view prefix, const DrawContext& context) {
+  const Tab* tab = entries.state.tab();
+  const DocumentView view = tab == nullptr ? DocumentView() : tab->view;
+  for (const CompareRow& row : compare_rows()) {
+    const bool enabled = tab != nullptr;
+    if (ImGui::MenuItem(std::string(row.label).c_str(), nullptr, view.compare == row.compare, enabled))
+      entries.sink.emit(action::SetCompare{row.compare, view.compare_split});
+    finish_item(context, std::string(prefix) + "." + std::string(row.id), {std::string(row.help)});
+  }
+}
+
+void draw_menu_bar(const EntryContext& entries, const Area& area, const DrawContext& context) {
+  const ThemeLook& look = context.look;
+  if (!ImGui::BeginMenuBar()) return;
+  const bool narrow = area.width() < look.px(520);
+  ImGui::SetCursorPosX(look.px(narrow ? 2 : 10));
+  if (!narrow) {
+    const FontScope bold(look.bold);
+    ImGui::TextUnformatted("Oversketch");
+    ImGui::SameLine(0, look.px(12));
+  }
+  for (const MenuTitle& title : kMenus)
+    draw_menu(title, entries, context);
+  const float used = ImGui::GetCursorScreenPos().x + look.px(16);
+  draw_text(ImVec2(used, area.low.y), ImVec2(area.high.x - look.px(11), area.high.y), look.ink_quiet,
+            document_title(entries.state, entries.snapshot), 1);
+  ImGui::EndMenuBar();
+}
+
+} // namespace oversketch

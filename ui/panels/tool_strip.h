@@ -1,0 +1,13 @@
+#pragma once
+
+#include "ui/state/shortcuts.h"
+#include "ui/widgets/draw_context.h"
+#include "ui/window_layout.h"
+
+namespace oversketch {
+
+/// The tools, and below them what the canvases show besides the picture: overlays, comparison; in a narrow window the
+/// side panel's button too.  To be called within the strip's own window.
+void draw_tool_strip(const EntryContext& entries, const Area& area, const DrawContext& context);
+
+} // namespace oversketch
