@@ -1,5 +1,8 @@
 #pragma once
 
+#include "ui/panels/deform_panel.h"
+#include "ui/panels/history_panel.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/state/shortcuts.h"
 #include "ui/window_state.h"
 
@@ -12,6 +15,9 @@ struct WindowState::Parts {
   WindowFlags flags;
   /// Design pixels.
   float side_width = 320;
+  LayersPanelState layers;
+  DeformPanelState deform;
+  HistoryPanelState history;
 };
 
 } // namespace oversketch

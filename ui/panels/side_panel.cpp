@@ -1,14 +1,31 @@
 #include "ui/panels/side_panel.h"
 
+#include "ui/panels/blend_panel.h"
+#include "ui/panels/tool_panel.h"
 #include "ui/widgets/section.h"
 
 #include <algorithm>
 
 namespace oversketch {
 
+namespace {
+
+void draw_sections(const SidePanelScene& scene, const DrawContext& context) {
+  if (scene.snapshot == nullptr) return draw_note(context, "\nNothing is open.");
+  const Snapshot& snapshot = *scene.snapshot;
+  WindowState::Parts& parts = scene.parts;
+  draw_layers_panel(make_layers_model(snapshot), parts.layers, scene.entries, scene.pictures, context);
+  draw_tool_panel(make_tool_model(scene.state, snapshot), scene.entries, context);
+  draw_deform_panel(make_deform_model(snapshot), parts.deform, scene.state.tab()->session.get(), scene.pictures,
+                    context);
+  draw_blend_panel(make_blend_model(snapshot), context);
+  draw_history_panel(make_history_model(snapshot), parts.history, context);
+}
+
+} // namespace
+
 void draw_side_panel(const SidePanelScene& scene, const Area& area, const DrawContext& context) {
   const ThemeLook& look = context.look;
-  (void)scene;
   // A child of its own: over narrow canvases it must lie on top of theirs.
   ImGui::SetCursorScreenPos(area.low);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, look.panel);
@@ -21,6 +38,7 @@ void draw_side_panel(const SidePanelScene& scene, const Area& area, const DrawCo
   ImGui::SetNextWindowContentSize(ImVec2(std::max(1.0F, area.width() - 2 * pad), 0));
   ImGui::BeginChild("##sections", ImVec2(area.width() - pad, area.height()));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(look.px(8), look.px(4)));
+  draw_sections(scene, context);
   ImGui::PopStyleVar();
   ImGui::EndChild();
   ImGui::EndChild();

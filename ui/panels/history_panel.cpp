@@ -1,0 +1,70 @@
+#include "ui/panels/history_panel.h"
+
+#include "ui/widgets/section.h"
+
+#include <algorithm>
+
+namespace oversketch {
+namespace {
+
+/// So many steps are seen at once; the list scrolls beyond.
+constexpr std::size_t kMostRows = 12;
+constexpr float kRow = 24;
+
+void draw_step(const HistoryModel& model, std::size_t index, const DrawContext& context) {
+  const ThemeLook& look = context.look;
+  const std::string id = "history." + std::to_string(index);
+  const IdScope scope(id);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kRow));
+  const bool present = index == model.cursor, undone = index > model.cursor;
+  if (ImGui::InvisibleButton("##step", ImVec2(end.x - at.x, end.y - at.y)) && !present)
+    context.sink.emit(action::Jump{index});
+  const bool hovered = ImGui::IsItemHovered();
+  if (present || hovered)
+    ImGui::GetWindowDrawList()->AddRectFilled(at, end, present ? look.selected : mixed(look.panel, look.raised, 0.6F),
+                                              look.px(4));
+  draw_text(ImVec2(at.x + look.px(8), at.y), ImVec2(end.x - look.px(8), end.y),
+            undone ? faded(look.ink_quiet, 0.7F) : look.ink, model.labels[index]);
+  finish_item(context, id,
+              {present  ? model.labels[index] + ". This is what is shown."
+               : undone ? model.labels[index] + ". Click does the steps up to here again."
+                        : model.labels[index] + ". Click goes back to after this step.",
+               {}});
+  ImGui::SetCursorScreenPos(ImVec2(at.x, end.y));
+}
+
+} // namespace
+
+HistoryModel make_history_model(const Snapshot& snapshot) {
+  return {snapshot.history, snapshot.cursor};
+}
+
+void draw_history_panel(const HistoryModel& model, HistoryPanelState& state, const DrawContext& context) {
+  const std::string summary = model.labels.empty() ? std::string() : std::to_string(model.labels.size() - 1);
+  const Section section(context, "panel.history", "History", summary,
+                        "Every step since the document was opened. Click one to go there.");
+  if (!section.open() || model.labels.empty()) return;
+  const float row = context.look.px(kRow);
+  const std::size_t rows = std::min(model.labels.size(), kMostRows);
+  ImGui::BeginChild("##steps", ImVec2(0, row * static_cast<float>(rows)));
+  // A new step, or one that was jumped to, is brought into sight; after that the hand scrolls.
+  if (state.shown_cursor != model.cursor || state.shown_count != model.labels.size()) {
+    const float middle = row * (static_cast<float>(model.cursor) - static_cast<float>(rows) / 2 + 0.5F);
+    ImGui::SetScrollY(std::max(0.0F, middle));
+    state = {model.cursor, model.labels.size()};
+  }
+  const float top = ImGui::GetCursorScreenPos().y;
+  const float x = ImGui::GetCursorScreenPos().x;
+  const auto first = static_cast<std::size_t>(std::max(0.0F, ImGui::GetScrollY() / row));
+  const std::size_t last = std::min(model.labels.size(), first + rows + 2);
+  for (std::size_t i = first; i < last; ++i) {
+    ImGui::SetCursorScreenPos(ImVec2(x, top + row * static_cast<float>(i)));
+    draw_step(model, i, context);
+  }
+  ImGui::SetCursorScreenPos(ImVec2(x, top + row * static_cast<float>(model.labels.size())));
+  ImGui::Dummy(ImVec2(1, 0));
+  ImGui::EndChild();
+}
+
+} // namespace oversketch

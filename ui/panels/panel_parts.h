@@ -1,0 +1,30 @@
+#pragma once
+
+#include "ui/state/shortcuts.h"
+#include "ui/widgets/buttons.h"
+#include "ui/widgets/pictures.h"
+#include "ui/widgets/slider.h"
+
+#include <memory>
+#include <string_view>
+
+namespace oversketch {
+
+/// What the slider of one of `layer.set`'s numbers may be: its bounds and its start as the command table and a new
+/// layer have them, the bar's ends and the unit as a hand wants them.
+/// @param field  "cell_px", "stiffness", "follow", "handle_weight", "iterations", "strength", "opacity", "feather_px".
+SliderSpec setting_slider(std::string_view field);
+
+/// A button that does what an entry of the menus does; pale where the entry is.
+void draw_entry_button(const EntryContext& entries, std::string_view entry, std::string_view id, const char* icon,
+                       const DrawContext& context);
+
+/// A picture fitted into a box, in its middle, with round corners; an empty box where there is none.
+void draw_picture_in(Pictures& pictures, const std::shared_ptr<const Raster<Rgba8>>& picture, ImVec2 corner, ImVec2 end,
+                     const DrawContext& context);
+
+/// A quiet label with its value at the right, in one row.
+void draw_number(const DrawContext& context, std::string_view id, std::string_view label, std::string_view value,
+                 const Tip& tip, bool alarming = false);
+
+} // namespace oversketch
