@@ -6,9 +6,9 @@
 #include "ui/panels/status_bar.h"
 #include "ui/panels/tab_bar.h"
 #include "ui/panels/tool_strip.h"
+#include "ui/panels/window_layout.h"
+#include "ui/panels/window_parts.h"
 #include "ui/widgets/item.h"
-#include "ui/window_layout.h"
-#include "ui/window_parts.h"
 
 #include <algorithm>
 

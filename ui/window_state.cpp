@@ -1,6 +1,6 @@
 #include "ui/window_state.h"
 
-#include "ui/window_parts.h"
+#include "ui/panels/window_parts.h"
 
 namespace oversketch {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "ui/panels/window_layout.h"
+#include "ui/panels/window_parts.h"
 #include "ui/state/shortcuts.h"
 #include "ui/widgets/draw_context.h"
 #include "ui/widgets/pictures.h"
-#include "ui/window_layout.h"
-#include "ui/window_parts.h"
 
 namespace oversketch {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "ui/panels/window_layout.h"
 #include "ui/state/shortcuts.h"
 #include "ui/widgets/draw_context.h"
-#include "ui/window_layout.h"
 
 namespace oversketch {
 

@@ -1,6 +1,7 @@
 #include "ui/state/shortcuts.h"
 
 #include "core/base/check.h"
+#include "ui/state/entry_row.h"
 
 #include <algorithm>
 #include <array>
@@ -44,6 +45,16 @@ bool repeats(const Entry& entry) {
 }
 
 } // namespace
+
+std::span<const Entry> entries() {
+  static const std::vector<Entry> kEntries = [] {
+    std::vector<Entry> all;
+    for (const auto rows : {file_entries(), layer_entries(), view_entries()})
+      all.insert(all.end(), rows.begin(), rows.end());
+    return all;
+  }();
+  return kEntries;
+}
 
 const Entry& entry_of(std::string_view id) {
   const auto found = std::ranges::find(entries(), id, &Entry::id);
