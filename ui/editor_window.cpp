@@ -1,5 +1,6 @@
 #include "ui/editor_window.h"
 
+#include "ui/panels/dialog_host.h"
 #include "ui/panels/empty_state.h"
 #include "ui/panels/menu_bar.h"
 #include "ui/panels/side_panel.h"
@@ -133,6 +134,7 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
                         const DrawContext& context) {
   WindowState::Parts& parts = window.parts();
   const auto snapshot = state.tab() == nullptr ? nullptr : state.tab()->session->snapshot();
+  const bool dialog = has_dialog(state, parts);
   Frame frame{state,
               snapshot,
               parts,
@@ -142,7 +144,7 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
               lay_out(state, parts, context),
               {state, snapshot.get(), parts.flags, context.sink}};
   parts.flags.narrow = frame.layout.narrow;
-  read_keys(events, ImGui::GetIO().WantTextInput, frame.entries);
+  read_keys(events, dialog || parts.dialog_open || ImGui::GetIO().WantTextInput, frame.entries);
 
   const ThemeLook& look = context.look;
   ImGui::SetNextWindowPos(ImVec2(0, 0));
@@ -155,6 +157,8 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   ImGui::PopStyleVar(3);
   draw_parts(frame);
   ImGui::End();
+  draw_dialogs(state, parts, pictures, events, context);
+  parts.dialog_open = dialog;
 }
 
 } // namespace oversketch

@@ -4,11 +4,9 @@
 
 namespace oversketch {
 
-WindowState::WindowState(std::function<void()> wake, std::unique_ptr<SystemDialog> system)
-    : parts_(std::make_unique<Parts>()) {
-  parts_->wake = std::move(wake);
-  parts_->system = std::move(system);
-}
+WindowState::WindowState(std::function<void()> wake, std::unique_ptr<SystemDialog> system,
+                         std::filesystem::path samples)
+    : parts_(std::make_unique<Parts>(wake, std::move(system), std::move(samples))) {}
 
 WindowState::~WindowState() = default;
 

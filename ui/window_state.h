@@ -27,7 +27,9 @@ class WindowState {
 public:
   /// @param wake    makes the window draw a frame soon; called from other threads (a preview has been read).
   /// @param system  may be null.
-  explicit WindowState(std::function<void()> wake = {}, std::unique_ptr<SystemDialog> system = {});
+  /// @param samples  the folder of the samples, a place of the file browser; may be empty.
+  explicit WindowState(std::function<void()> wake = {}, std::unique_ptr<SystemDialog> system = {},
+                       std::filesystem::path samples = {});
   ~WindowState();
   WindowState(const WindowState&) = delete;
   WindowState& operator=(const WindowState&) = delete;

@@ -1,5 +1,6 @@
 #include "app/gui/frame_loop.h"
 
+#include "app/gui/zenity_dialog.h"
 #include "core/image/image_io.h"
 #include "ui/editor_window.h"
 #include "ui/render/screen.h"
@@ -37,10 +38,12 @@ FrameLoop::FrameLoop(Options options, std::filesystem::path assets, Window& wind
                      Window::wake();
                    },
                .keep_preferences = [this](const Preferences& p) { keeper_.keep(p); }}),
-      window_state_([this] {
-        changed_ = true;
-        Window::wake();
-      }) {
+      window_state_(
+          [this] {
+            changed_ = true;
+            Window::wake();
+          },
+          std::make_unique<ZenityDialog>(), assets_ / "samples") {
   if (options_.ui_map) map_.emplace(*options_.ui_map);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "ui/panels/deform_panel.h"
+#include "ui/panels/dialogs.h"
+#include "ui/panels/file_browser.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/state/shortcuts.h"
@@ -10,14 +12,23 @@ namespace oversketch {
 
 /// See WindowState.
 struct WindowState::Parts {
-  std::function<void()> wake;
+  Parts(const std::function<void()>& wake, std::unique_ptr<SystemDialog> dialog, std::filesystem::path samples)
+      : system(std::move(dialog)), browser(wake, std::move(samples)) {}
+
   std::unique_ptr<SystemDialog> system;
+  /// What the desktop's dialog is open for.
+  std::optional<FileRequest> system_request;
   WindowFlags flags;
   /// Design pixels.
   float side_width = 320;
   LayersPanelState layers;
   DeformPanelState deform;
   HistoryPanelState history;
+  FileBrowser browser;
+  NewDocumentState new_document;
+  std::string shortcut_search;
+  /// A dialog was drawn in the frame before.
+  bool dialog_open = false;
 };
 
 } // namespace oversketch
