@@ -67,18 +67,22 @@ std::optional<PointerPlace> find_pointer(const EditorState& state, const DrawCon
   return std::nullopt;
 }
 
-/// The side panel's left edge can be dragged.
+/// The side panel's left edge can be dragged.  In a child of its own, over canvases and panel, which would take the
+/// pointer otherwise.
 void draw_side_edge(Frame& frame) {
   if (frame.layout.narrow || frame.layout.side.empty()) return;
+  const Area& side = frame.layout.side;
   const float reach = frame.context.look.px(3);
-  ImGui::SetCursorScreenPos(ImVec2(frame.layout.side.low.x - reach, frame.layout.side.low.y));
-  ImGui::InvisibleButton("##edge", ImVec2(2 * reach, frame.layout.side.height()));
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActive()) {
-    const float width = (frame.layout.side.high.x - ImGui::GetIO().MousePos.x) / frame.context.look.scale;
-    frame.parts.side_width = std::clamp(width, kLeastSide, kMostSide);
-  }
-  finish_item(frame.context, "panel.side.edge", {"Drag to make the side panel wider or narrower.", {}});
+  const Area edge{ImVec2(side.low.x - reach, side.low.y), ImVec2(side.low.x + reach, side.high.y)};
+  draw_area("##edge", edge, ImGuiWindowFlags_NoBackground, [&] {
+    ImGui::InvisibleButton("##drag", ImVec2(edge.width(), edge.height()));
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (ImGui::IsItemActive()) {
+      const float width = (side.high.x - ImGui::GetIO().MousePos.x) / frame.context.look.scale;
+      frame.parts.side_width = std::clamp(width, kLeastSide, kMostSide);
+    }
+    finish_item(frame.context, "panel.side.edge", {"Drag to make the side panel wider or narrower.", {}});
+  });
 }
 
 void draw_middle(Frame& frame) {
@@ -87,6 +91,19 @@ void draw_middle(Frame& frame) {
   ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.canvas);
   if (frame.state.tab() == nullptr)
     draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
+#if __has_include("ui/canvas/canvas_panel.h")
+  else
+    draw_canvases(frame.state, frame.parts.canvases, frame.pictures, frame.events, area.low, area.high, frame.context);
+#endif
+}
+
+/// A line on the tool in hand, for the status bar.
+std::string_view hint_of(Tool tool) {
+#if __has_include("ui/canvas/canvas_panel.h")
+  return tool_summary(tool);
+#else
+  return tool == Tool::kPan ? "" : "";
+#endif
 }
 
 void draw_strip(Frame& frame) {
@@ -99,14 +116,23 @@ void draw_strip(Frame& frame) {
   register_box(frame.context, "panel.tools", area.low, area.high);
 }
 
+/// A dialog takes what happens.  What was in hand when it came is let go: its end would not be seen.
+InputEvents canvas_events(const InputEvents& events, bool dialog, bool dialog_before) {
+  if (!dialog) return dialog_before ? InputEvents() : events;
+  if (dialog_before) return {};
+  InputEvent lost;
+  lost.kind = InputEvent::Kind::kFocusLost;
+  return {lost};
+}
+
 void draw_status(Frame& frame) {
   const Tab* tab = frame.state.tab();
   const auto pointer = find_pointer(frame.state, frame.context);
   frame.parts.flags.under_pointer = pointer ? std::optional(pointer->side) : std::nullopt;
   const double now = frame.context.now_s;
-  const StatusModel model =
-      make_status_model(frame.state, frame.snapshot.get(),
-                        tab != nullptr ? tab->session->activity() : LiveSession::Activity(), pointer, "", now);
+  const StatusModel model = make_status_model(frame.state, frame.snapshot.get(),
+                                              tab != nullptr ? tab->session->activity() : LiveSession::Activity(),
+                                              pointer, hint_of(frame.state.tool), now);
   if (model.said) frame.context.reply.ask_frame_at(frame.state.said_until);
   draw_area("##status", frame.layout.status, 0, [&] { draw_status_bar(model, frame.layout.status, frame.context); });
 }
@@ -119,10 +145,10 @@ void draw_parts(Frame& frame) {
   draw_strip(frame);
   draw_middle(frame);
   draw_status(frame);
-  draw_side_edge(frame);
   if (!frame.layout.side.empty())
     draw_side_panel({frame.state, frame.snapshot.get(), frame.parts, frame.pictures, frame.entries}, frame.layout.side,
                     frame.context);
+  draw_side_edge(frame);
   const Area& menu = frame.layout.menu;
   ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(menu.low.x, menu.high.y - frame.context.look.px(1)), menu.high,
                                             frame.context.look.line);
@@ -133,8 +159,9 @@ void draw_parts(Frame& frame) {
 void draw_editor_window(const EditorState& state, WindowState& window, Pictures& pictures, const InputEvents& events,
                         const DrawContext& context) {
   WindowState::Parts& parts = window.parts();
-  const auto snapshot = state.tab() == nullptr ? nullptr : state.tab()->session->snapshot();
   const bool dialog = has_dialog(state, parts);
+  const auto snapshot = state.tab() == nullptr ? nullptr : state.tab()->session->snapshot();
+  const InputEvents for_canvases = canvas_events(events, dialog, parts.dialog_open);
   Frame frame{state,
               snapshot,
               parts,

@@ -194,9 +194,8 @@ std::string format_time(fs::file_time_type time) {
       std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::system_clock::duration>(system));
   std::tm local{};
   if (localtime_r(&seconds, &local) == nullptr) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, "%04d-%02d-%02d %02d:%02d", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday,
-                local.tm_hour, local.tm_min);
+  char text[64];
+  if (std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local) == 0) return {};
   return text;
 }
 

@@ -52,7 +52,8 @@ void grow_tolerance(C c) {
 }
 
 bool is_busy(C c) {
-  return c.state.tab() != nullptr && c.state.tab()->session->activity().busy;
+  const Tab* tab = c.state.tab();
+  return tab != nullptr && tab->session != nullptr && tab->session->activity().busy;
 }
 void show_preferences(C c) {
   c.sink.emit(action::ShowWindow{action::Window::kPreferences, true});

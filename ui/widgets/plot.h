@@ -9,7 +9,7 @@
 namespace oversketch {
 
 struct PlotLook {
-  std::string_view caption;
+  std::string_view caption = {};
   PackedColor color = 0;
   /// Design pixels.
   float height = 44;

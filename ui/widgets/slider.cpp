@@ -104,6 +104,7 @@ SliderChange draw_typing(const DrawContext& context, const RowBox& box, std::str
     return {};
   }
   stage = 0;
+  if (compat::is_key_pressed(ImGuiKey_Escape, false)) return {};
   const bool same =
       std::isnan(last) || last == static_cast<float>(value) || format_value(last, plain) == format_value(value, plain);
   return same ? SliderChange{} : take_typed(format_value(last, plain), label, spec);

@@ -1,0 +1,189 @@
+#include "ui/editor_window.h"
+
+#include "tests/support/documents.h"
+#include "tests/unit/ui/headless.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace oversketch {
+namespace {
+
+using testing::Headless;
+
+/// The whole window, over a real session.
+class WholeWindow : public Headless {
+protected:
+  WholeWindow() : Headless(ImVec2(1600, 1000)) {}
+
+  void open_document() {
+    Tab tab;
+    tab.name = "sea";
+    tab.session = std::make_unique<LiveSession>();
+    tab.session->execute(testing::new_document(200, 150));
+    tab.session->execute(LayerAdd{testing::loaded_ref("fish.png", testing::wavy_image(90, 80, 1)), "fish"});
+    tab.session->execute(RegionSet{{}, testing::blob({45, 40}, 25)});
+    tab.session->wait_until_idle();
+    state.tabs.push_back(std::move(tab));
+  }
+  void show_window() {
+    show([this](const DrawContext& context) { draw_editor_window(state, window, pictures, events, context); }, true);
+    frame();
+  }
+  EditorState state;
+  WindowState window;
+};
+
+TEST_F(WholeWindow, HasEveryPartAtEverySize) {
+  open_document();
+  for (const ImVec2 size : {ImVec2(1600, 1000), ImVec2(1024, 700), ImVec2(3840, 2160), ImVec2(320, 240)}) {
+    ImGui::GetIO().DisplaySize = size;
+    show_window();
+    frame();
+    for (const char* id : {"menu.file", "menu.help", "panel.tools", "tool.outline", "canvas.target", "tab.0"})
+      EXPECT_TRUE(has(id)) << id << " at " << size.x << " × " << size.y;
+    for (const auto& [name, box] : widgets_.boxes()) {
+      EXPECT_GE(box.x, -0.5F) << name;
+      EXPECT_GE(box.y, -0.5F) << name;
+      EXPECT_LE(box.x + box.w, size.x + 0.5F) << name << " at " << size.x;
+      EXPECT_LE(box.y + box.h, size.y + 0.5F) << name << " at " << size.y;
+    }
+  }
+}
+
+TEST_F(WholeWindow, EveryWidgetHasATip) {
+  open_document();
+  show_window();
+  for (const auto& [name, box] : widgets_.boxes()) {
+    const bool place = (name.starts_with("panel.") && !name.ends_with(".title") && !name.ends_with(".edge")) ||
+                       name.starts_with("canvas.");
+    EXPECT_EQ(widgets_.tips().contains(name), !place) << name;
+  }
+  for (const char* panel : {"panel.layers", "panel.tool", "panel.deformation", "panel.blending", "panel.history"})
+    EXPECT_TRUE(has(panel)) << panel;
+}
+
+TEST_F(WholeWindow, IsEmptyWithoutADocument) {
+  show_window();
+  EXPECT_TRUE(has("empty.open"));
+  EXPECT_FALSE(has("canvas.target"));
+  EXPECT_FALSE(has("tab.0"));
+  click("empty.sample");
+  take_one<action::OpenSample>();
+}
+
+TEST_F(WholeWindow, SmallWindowsShowTheSidePanelWhenAsked) {
+  open_document();
+  ImGui::GetIO().DisplaySize = ImVec2(320, 240);
+  show_window();
+  EXPECT_FALSE(has("panel.layers"));
+  events = {key_event(Key::kF4)};
+  frame();
+  frame();
+  EXPECT_TRUE(has("panel.layers"));
+  events = {key_event(Key::kF4)};
+  frame();
+  frame();
+  EXPECT_FALSE(has("panel.layers"));
+}
+
+TEST_F(WholeWindow, KeysReachTheirActions) {
+  open_document();
+  show_window();
+  take();
+  events = {key_event(key_of('Z'), {.ctrl = true}), key_event(key_of('E'), {.shift = true, .ctrl = true})};
+  frame();
+  const auto actions = take();
+  EXPECT_EQ(std::ranges::count_if(actions, [](const Action& a) { return std::holds_alternative<action::Undo>(a); }), 1);
+  EXPECT_EQ(std::ranges::count_if(actions, [](const Action& a) { return std::holds_alternative<action::Export>(a); }),
+            1);
+}
+
+TEST_F(WholeWindow, DialogsTakeTheKeyboardAndTheMouse) {
+  open_document();
+  state.question = Question{"Really?", "It is lost.", {{"yes", "Yes", {}, true}}};
+  show_window();
+  frame();
+  take();
+  events = {key_event(key_of('Z'), {.ctrl = true})};
+  frame();
+  EXPECT_TRUE(take_all<action::Undo>().empty());
+  click("tool.pin");
+  EXPECT_TRUE(take_all<action::PickTool>().empty()) << "it lies under the dialog";
+  click("question.yes");
+  take_one<action::Dismiss>();
+}
+
+TEST_F(WholeWindow, TheSidePanelsEdgeIsDragged) {
+  open_document();
+  show_window();
+  const float before = widgets_.boxes().at("panel.side").w;
+  move_to(at("panel.side.edge"));
+  set_button(true);
+  move_to(ImVec2(at("panel.side.edge").x - 80, 500));
+  set_button(false);
+  frame();
+  EXPECT_NEAR(widgets_.boxes().at("panel.side").w, before + 80, 5);
+}
+
+/// Answers what it was told to, after some polls.
+class FakeDialog : public SystemDialog {
+public:
+  explicit FakeDialog(std::vector<FileRequest>& started) : started_(started) {}
+  bool available() const override { return true; }
+  void start(const FileRequest& request) override {
+    started_.push_back(request);
+    polls_ = 0;
+  }
+  std::optional<std::filesystem::path> poll() override {
+    return ++polls_ < 3 ? std::nullopt : std::optional<std::filesystem::path>("/a/sea.jpg");
+  }
+  void stop() override {}
+
+private:
+  std::vector<FileRequest>& started_;
+  int polls_ = 0;
+};
+
+TEST_F(WholeWindow, TheDesktopsDialogIsAskedOnceAndPolled) {
+  std::vector<FileRequest> started;
+  WindowState with_system({}, std::make_unique<FakeDialog>(started));
+  state.preferences.system_dialog = true;
+  state.file_request = FileRequest{FileRequest::For::kOpen, "/a"};
+  show([&](const DrawContext& context) { draw_editor_window(state, with_system, pictures, events, context); }, true);
+  EXPECT_EQ(started.size(), 1U);
+  EXPECT_FALSE(has("browser.path"));
+  EXPECT_LT(reply_.next_frame_s, now_s_ + 1);
+  frame();
+  const auto actions = take();
+  ASSERT_EQ(actions.size(), 2U);
+  EXPECT_TRUE(std::holds_alternative<action::Dismiss>(actions[0]));
+  EXPECT_EQ(std::get<action::Open>(actions[1]).path, "/a/sea.jpg");
+}
+
+/// What panels draw goes through the widgets, which register it and give it a tip.
+TEST(PanelSources, DrawNoBareItems) {
+  namespace fs = std::filesystem;
+  for (const auto& entry : fs::directory_iterator(fs::path(OVERSKETCH_SOURCE_DIR) / "ui" / "panels")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string source = text.str();
+    for (const char* item : {"ImGui::Button(", "ImGui::SmallButton(", "ImGui::Checkbox(", "ImGui::RadioButton(",
+                             "ImGui::SliderFloat(", "ImGui::SliderInt(", "ImGui::DragFloat(", "ImGui::Combo(",
+                             "ImGui::BeginCombo(", "ImGui::ListBox(", "ImGui::CollapsingHeader(", "ImGui::TreeNode("})
+      EXPECT_EQ(source.find(item), std::string::npos) << entry.path() << " draws " << item;
+    // Items that panels make themselves are each followed by their registration.
+    for (const char* item : {"ImGui::InvisibleButton(", "ImGui::InputText", "ImGui::MenuItem(", "ImGui::Selectable("})
+      for (auto found = source.find(item); found != std::string::npos; found = source.find(item, found + 1)) {
+        const auto registered = source.find("finish_item(", found);
+        EXPECT_LT(registered - found, 900U) << entry.path() << ": " << source.substr(found, 60);
+      }
+  }
+}
+
+} // namespace
+} // namespace oversketch
