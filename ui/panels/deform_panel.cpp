@@ -90,14 +90,8 @@ void draw_numbers(const DeformModel& model, const DrawContext& context) {
               {describe_stages(model.times), {}});
 }
 
-template <class Set>
-Set choose(Set set, int alternative) {
-  if constexpr (requires { set.alternative; }) set.alternative = alternative;
-  return set;
-}
-
 void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawContext& context) {
-  if (model.alternatives.size() < 2) return;
+  if (model.alternatives.empty()) return;
   const ThemeLook& look = context.look;
   ImGui::Dummy(ImVec2(1, look.px(2)));
   draw_note(context, "Other ways to fit the curves");
@@ -106,17 +100,15 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
   const float side = std::min(look.px(84), (width - 2 * gap) / 3);
   for (std::size_t i = 0; i < model.alternatives.size(); ++i) {
     const AlternativeSnapshot& choice = model.alternatives[i];
-    const std::string id = "deform.alternative." + std::to_string(choice.index);
+    const std::string id = "deform.alternative." + std::to_string(i);
     const IdScope scope(id);
     const auto column = static_cast<float>(i % 3), line = static_cast<float>(i / 3);
     const ImVec2 corner(at.x + column * (side + gap), at.y + line * (side + gap)),
         end(corner.x + side, corner.y + side);
     ImGui::SetCursorScreenPos(corner);
-    if (ImGui::InvisibleButton("##choice", ImVec2(side, side))) {
-      context.sink.emit(action::Execute{choose(LayerSet(), choice.index)});
-    }
+    if (ImGui::InvisibleButton("##choice", ImVec2(side, side))) context.sink.emit(action::Execute{choice.take});
     const bool hovered = ImGui::IsItemHovered();
-    finish_item(context, id, {"Begins the curves at another place. Click takes it; the first is the likeliest.", {}});
+    finish_item(context, id, {"Another way to lay the outline along the sketch. Click takes it: one pin holds it there.", {}});
     ImGui::GetWindowDrawList()->AddRectFilled(corner, end, look.sunken, look.px(4));
     draw_picture_in(pictures, choice.picture, corner, end, context);
     if (hovered) ImGui::GetWindowDrawList()->AddRect(corner, end, look.accent, look.px(4), 0, look.px(1.5F));
