@@ -229,7 +229,7 @@ struct Spec<LayerSet> {
               "width over which a strength below 1, or mode none, sets in; 0 from the start", "px", 0, 1000},
         Field{"screening", &LayerSet::screening,
               "how far from the edge the colour correction dies away, by a factor of e: keeps a colour that bleeds in "
-              "from tinting the whole region; 0, from the start: it does not",
+              "from tinting the whole region; 0 from the start: it does not",
               "px", 0, 100000});
   }
 };

@@ -12,9 +12,9 @@ namespace oversketch {
 using MixInside = bool(const Rgba* pixels, int width, int count, const int* first, const float* tx, const float* ty,
                        Rgba* out);
 
-MixInside mix_bilinear_baseline, mix_bicubic_baseline;
+extern MixInside mix_bilinear_baseline, mix_bicubic_baseline;
 #if defined(__x86_64__)
-MixInside mix_bilinear_avx2, mix_bicubic_avx2;
+extern MixInside mix_bilinear_avx2, mix_bicubic_avx2;
 #endif
 
 /// 2 × 2 taps from the pixel before the point.

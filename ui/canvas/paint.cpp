@@ -81,11 +81,6 @@ void CanvasPaint::ring(Point center, PackedColor color, float radius, float widt
   list.AddCircle(p, look.px(radius), color, 0, look.px(width));
 }
 
-PackedColor faded(PackedColor color, float alpha) {
-  const float a = static_cast<float>(color >> IM_COL32_A_SHIFT & 0xff) * std::clamp(alpha, 0.0f, 1.0f);
-  return (color & ~IM_COL32_A_MASK) | static_cast<PackedColor>(std::lround(a)) << IM_COL32_A_SHIFT;
-}
-
 PackedColor fraction_color(double fraction) {
   float r = 0, g = 0, b = 0;
   ImGui::ColorConvertHSVtoRGB(static_cast<float>(fraction - std::floor(fraction)), 0.75f, 0.95f, r, g, b);

@@ -36,9 +36,6 @@ struct CanvasPaint {
   void ring(Point center, PackedColor color, float radius, float width) const;
 };
 
-/// The same colour, `alpha` times as opaque.
-PackedColor faded(PackedColor color, float alpha);
-
 /// The colour of a place on the curves: a fraction of the outline's length, round the colour circle.
 PackedColor fraction_color(double fraction);
 

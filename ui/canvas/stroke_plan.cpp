@@ -169,7 +169,8 @@ Points forecast_ghost(const Layer& layer, const Points& stroke, const StrokeAsk&
     // What comes of it is no curve; then the part that lies nearer to the stroke's middle is meant.
     const Point middle = stroke[stroke.size() / 2];
     const ArcInterval rest = rest_of(part);
-    if (distance(curve.at(rest.begin + rest.length / 2), middle) < distance(curve.at(part.begin + part.length / 2), middle))
+    if (distance(curve.at(rest.begin + rest.length / 2), middle) <
+        distance(curve.at(part.begin + part.length / 2), middle))
       part = rest;
   }
   return line_along(curve, ask.other_side ? rest_of(part) : part);

@@ -108,7 +108,8 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
     ImGui::SetCursorScreenPos(corner);
     if (ImGui::InvisibleButton("##choice", ImVec2(side, side))) context.sink.emit(action::Execute{choice.take});
     const bool hovered = ImGui::IsItemHovered();
-    finish_item(context, id, {"Another way to lay the outline along the sketch. Click takes it: one pin holds it there.", {}});
+    finish_item(context, id,
+                {"Another way to lay the outline along the sketch. Click takes it: one pin holds it there.", {}});
     ImGui::GetWindowDrawList()->AddRectFilled(corner, end, look.sunken, look.px(4));
     draw_picture_in(pictures, choice.picture, corner, end, context);
     if (hovered) ImGui::GetWindowDrawList()->AddRect(corner, end, look.accent, look.px(4), 0, look.px(1.5F));

@@ -29,8 +29,9 @@ public:
   Modifiers modifiers;
 
   CanvasFrame frame() const {
-    return {state,    view,      snapshot,   lay_out_canvases({{0, 0}, {500, 300}}, view.split, two, 5),
-            {200, 160}, {300, 200}, mouse_free, keys_free, 1};
+    return {state,      view,       snapshot,   lay_out_canvases({{0, 0}, {500, 300}}, view.split, two, 5),
+            {200, 160}, {300, 200}, mouse_free, keys_free,
+            1};
   }
   void send(InputEvents events) {
     for (InputEvent& event : events) {
@@ -75,8 +76,13 @@ using H = CanvasHand;
 TEST(CanvasInput, takes_no_harm_from_nonsense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   H hand({});
-  hand.send({H::release({5, 5}), H::up(Key::kSpace), H::move({nan, nan}), H::wheel({5, 5}, {nan, 1e300}),
-             H::press({-500, 1e9}), H::down(Key::kNone), {.kind = InputEvent::Kind::kFocusLost}});
+  hand.send({H::release({5, 5}),
+             H::up(Key::kSpace),
+             H::move({nan, nan}),
+             H::wheel({5, 5}, {nan, 1e300}),
+             H::press({-500, 1e9}),
+             H::down(Key::kNone),
+             {.kind = InputEvent::Kind::kFocusLost}});
   hand.send({H::wheel({300, 5}, {0, 1e300}), H::wheel({300, 5}, {0, -1e300})});
   hand.drag({300, 100}, {320, 120});
   for (const Action& action : hand.take())
@@ -89,7 +95,7 @@ TEST(CanvasInput, random_events_leave_nothing_held_and_every_command_valid) {
     std::mt19937 random(seed);
     const auto below = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
     H hand(one_layer());
-    const Key keys[] = {key_of('L'), key_of('S'), key_of('P'),    key_of('V'),  key_of('H'), key_of('X'),
+    const Key keys[] = {key_of('L'), key_of('S'), key_of('P'),  key_of('V'),  key_of('H'), key_of('X'),
                         Key::kSpace, Key::kEnter, Key::kEscape, Key::kDelete, Key::kLeft,  key_of('0'),
                         key_of('+'), key_of('-'), key_of('\\'), key_of(']'),  Key::kAlt,   Key::kBackspace};
     const MouseButton buttons[] = {MouseButton::kLeft, MouseButton::kLeft, MouseButton::kRight, MouseButton::kMiddle};
@@ -206,8 +212,7 @@ TEST(CanvasInput, a_tools_key_switches_for_good_or_for_a_drag) {
 TEST(CanvasInput, key_and_drag_within_one_frame) {
   H hand(one_layer());
   hand.state.tool = Tool::kSketch;
-  hand.send({H::down(key_of('V')), H::press({282, 80}), H::move({299, 80}), H::release({299, 80}),
-             H::up(key_of('V'))});
+  hand.send({H::down(key_of('V')), H::press({282, 80}), H::move({299, 80}), H::release({299, 80}), H::up(key_of('V'))});
   const auto actions = hand.take();
   EXPECT_EQ(all_of<action::Commit>(actions).size() + all_of<action::Execute>(actions).size(), 1U);
   EXPECT_EQ(hand.state.tool, Tool::kSketch);

@@ -135,8 +135,8 @@ TEST_F(CanvasPanel, draws_every_overlay) {
   };
   state.overlays = {};
   const int usual = count();
-  bool Overlays::*const toggles[] = {&Overlays::curves, &Overlays::correspondence, &Overlays::handles,
-                                     &Overlays::control_mesh, &Overlays::display_mesh, &Overlays::heat_sigma,
+  bool Overlays::*const toggles[] = {&Overlays::curves,       &Overlays::correspondence, &Overlays::handles,
+                                     &Overlays::control_mesh, &Overlays::display_mesh,   &Overlays::heat_sigma,
                                      &Overlays::heat_area};
   for (bool Overlays::*const toggle : toggles) {
     state.overlays = {};

@@ -132,7 +132,9 @@ TEST(CurveTool, tolerance_is_in_screen_pixels) {
 TEST(CurveTool, what_is_given_up_changes_nothing) {
   using Give = void (*)(Hand&);
   const Give ways[] = {[](Hand& hand) { hand.key(Key::kEscape); }, [](Hand& hand) { hand.lose_focus(); },
-                       [](Hand& hand) { hand.press({90, 90}, MouseButton::kRight); }};
+                       [](Hand& hand) {
+                         hand.press({90, 90}, MouseButton::kRight);
+                       }};
   for (const Give give : ways) {
     CurveTool tool(Side::kTarget);
     Hand hand(tool, one_layer(), Side::kTarget);

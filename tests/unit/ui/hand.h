@@ -34,9 +34,7 @@ public:
   bool one_canvas = false;
   Modifiers modifiers;
 
-  ToolContext context() const {
-    return {snapshot, preferences, source_view, target_view, one_canvas, selected_pin, 1};
-  }
+  ToolContext context() const { return {snapshot, preferences, source_view, target_view, one_canvas, selected_pin, 1}; }
   void on(Side side) { side_ = side; }
 
   /// Each call is a frame of its own.
