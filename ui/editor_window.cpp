@@ -89,21 +89,12 @@ void draw_middle(Frame& frame) {
   const ThemeLook& look = frame.context.look;
   const Area& area = frame.layout.canvases;
   ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.canvas);
-  if (frame.state.tab() == nullptr)
+  // A document that holds nothing yet, and is not being opened, offers the same as no document.
+  const Tab* tab = frame.state.tab();
+  if (tab == nullptr || (frame.snapshot->document.empty() && !tab->session->activity().busy))
     draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
-#if __has_include("ui/canvas/canvas_panel.h")
   else
     draw_canvases(frame.state, frame.parts.canvases, frame.pictures, frame.events, area.low, area.high, frame.context);
-#endif
-}
-
-/// A line on the tool in hand, for the status bar.
-std::string_view hint_of(Tool tool) {
-#if __has_include("ui/canvas/canvas_panel.h")
-  return tool_summary(tool);
-#else
-  return tool == Tool::kPan ? "" : "";
-#endif
 }
 
 void draw_strip(Frame& frame) {
@@ -132,7 +123,7 @@ void draw_status(Frame& frame) {
   const double now = frame.context.now_s;
   const StatusModel model = make_status_model(frame.state, frame.snapshot.get(),
                                               tab != nullptr ? tab->session->activity() : LiveSession::Activity(),
-                                              pointer, hint_of(frame.state.tool), now);
+                                              pointer, tool_summary(frame.state.tool), now);
   if (model.said) frame.context.reply.ask_frame_at(frame.state.said_until);
   draw_area("##status", frame.layout.status, 0, [&] { draw_status_bar(model, frame.layout.status, frame.context); });
 }
@@ -171,7 +162,9 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
               lay_out(state, parts, context),
               {state, snapshot.get(), parts.flags, context.sink}};
   parts.flags.narrow = frame.layout.narrow;
-  read_keys(events, dialog || parts.dialog_open || ImGui::GetIO().WantTextInput, frame.entries);
+  // Nor is anything undone or saved under a hand that is drawing.
+  const bool drawing = parts.canvases.input.held();
+  read_keys(events, drawing || dialog || parts.dialog_open || ImGui::GetIO().WantTextInput, frame.entries);
 
   const ThemeLook& look = context.look;
   ImGui::SetNextWindowPos(ImVec2(0, 0));

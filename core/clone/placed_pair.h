@@ -54,9 +54,10 @@ public:
     return {{grey, grey, grey, 0}};
   }
 
-  Values at(int x, int y) const {
-    const Rgba &s = source_pixel(x, y), &t = target_pixel(x, y);
-    Values out{source_values(s), to_domain(t, domain_)};
+  Values at(int x, int y) const { return pair_of(source_pixel(x, y), target_pixel(x, y), domain_, monochrome_); }
+
+  static Values pair_of(const Rgba& s, const Rgba& t, Domain domain, bool monochrome) {
+    Values out{values_of(s, domain, monochrome), to_domain(t, domain)};
     if (s.a == 1 && t.a == 1) return out;
     const double a = s.a, b = t.a;
     const Channels difference = out.target - out.source;

@@ -14,6 +14,7 @@ constexpr double kWheelZoom = 1.2;
 
 void CanvasInput::update(const InputEvents& events, const CanvasFrame& frame, ActionSink& sink) {
   begin(frame, sink);
+  if (frame.covered && (hold_ != Hold::kNone || space_ || before_ || held_key_)) lose_focus(frame, sink);
   for (const InputEvent& event : events)
     handle(event, frame, sink);
   flush(frame, sink);
@@ -75,7 +76,7 @@ void CanvasInput::handle(InputEvent event, const CanvasFrame& frame, ActionSink&
   case InputEvent::Kind::kKeyUp:
     return release_key(event, frame, sink);
   case InputEvent::Kind::kFocusLost:
-    return lose_focus(event, frame, sink);
+    return lose_focus(frame, sink);
   }
 }
 
@@ -139,7 +140,9 @@ void CanvasInput::turn_wheel(const InputEvent& event, const CanvasFrame& frame) 
   set_view(*side, panned(view(*side), kScroll * frame.scale * by));
 }
 
-void CanvasInput::lose_focus(const InputEvent& event, const CanvasFrame& frame, ActionSink& sink) {
+void CanvasInput::lose_focus(const CanvasFrame& frame, ActionSink& sink) {
+  InputEvent event;
+  event.kind = InputEvent::Kind::kFocusLost;
   forward(event, hold_side_, frame);
   flush(frame, sink);
   hold_ = Hold::kNone;

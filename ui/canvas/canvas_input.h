@@ -22,6 +22,8 @@ struct CanvasFrame {
   /// Nothing lies over the canvases, and nobody is typing.
   bool mouse_free = true;
   bool keys_free = true;
+  /// A menu or a dialog is open: events go there, and the end of what is held would never be told.
+  bool covered = false;
   /// Screen pixels per design pixel.
   double scale = 1;
 
@@ -64,7 +66,7 @@ private:
   void turn_wheel(const InputEvent& event, const CanvasFrame& frame);
   void press_key(const InputEvent& event, const CanvasFrame& frame, ActionSink& sink);
   void release_key(const InputEvent& event, const CanvasFrame& frame, ActionSink& sink);
-  void lose_focus(const InputEvent& event, const CanvasFrame& frame, ActionSink& sink);
+  void lose_focus(const CanvasFrame& frame, ActionSink& sink);
   bool zoom_by_key(const InputEvent& event, const CanvasFrame& frame);
   bool set_by_key(const InputEvent& event, const CanvasFrame& frame, ActionSink& sink);
   void pick(Tool tool, const CanvasFrame& frame, ActionSink& sink);

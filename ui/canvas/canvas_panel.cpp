@@ -165,7 +165,8 @@ void show_places(const CanvasLayout& layout, const DrawContext& context) {
 }
 
 void draw_document(const EditorState& state, const Tab& tab, CanvasesState& canvases, Pictures& pictures,
-                   const InputEvents& events, const Box& area, bool mouse_free, const DrawContext& context) {
+                   const InputEvents& events, const Box& area, bool covered, bool mouse_free,
+                   const DrawContext& context) {
   const std::shared_ptr<const Snapshot> snapshot = tab.session->snapshot();
   const Document& document = snapshot->document;
   const Layer* layer = selected_layer(document);
@@ -179,6 +180,7 @@ void draw_document(const EditorState& state, const Tab& tab, CanvasesState& canv
                           size_of(document.target.image),
                           mouse_free,
                           !ImGui::GetIO().WantTextInput,
+                          covered,
                           context.look.scale};
   fit_where_wanted(frame, view, context.sink);
   canvases.input.update(events, frame, context.sink);
@@ -213,12 +215,14 @@ void draw_canvases(const EditorState& state, CanvasesState& canvases, Pictures& 
   ImGui::InvisibleButton("##surface", to_imgui(area.size()),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
-  const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const bool covered = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   const bool over = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   const bool elsewhere = !ImGui::IsMouseHoveringRect(corner, to_imgui(area.high), false);
-  const bool mouse_free = !popup && (over || elsewhere);
+  const bool mouse_free = !covered && (over || elsewhere);
   if (const Tab* tab = state.tab(); tab != nullptr && tab->session != nullptr)
-    draw_document(state, *tab, canvases, pictures, events, area, mouse_free, context);
+    draw_document(state, *tab, canvases, pictures, events, area, covered, mouse_free, context);
+  else
+    canvases.input = {};
   ImGui::EndChild();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);

@@ -16,7 +16,7 @@ constexpr double kTurnStep_deg = 15, kScaleStep = 0.05;
 constexpr double kFurthest = 1 << 22;
 constexpr double kDegree = std::numbers::pi / 180;
 
-bool is_in_frame(const Frame& frame, Point p) {
+bool is_in_frame(const LayerFrame& frame, Point p) {
   return contains(Points(frame.begin(), frame.end()), p);
 }
 
@@ -53,11 +53,12 @@ CursorShape pull_cursor(Point direction) {
 
 } // namespace
 
-std::optional<Frame> frame_of(const Layer& layer) {
+std::optional<LayerFrame> frame_of(const Layer& layer) {
   if (layer.sketch.empty()) return std::nullopt;
   const Box box = bounds(layer.sketch);
   const Similarity placed = layer.placement.to_target();
-  return Frame{placed(box.low), placed({box.high.x, box.low.y}), placed(box.high), placed({box.low.x, box.high.y})};
+  return LayerFrame{placed(box.low), placed({box.high.x, box.low.y}), placed(box.high),
+                    placed({box.low.x, box.high.y})};
 }
 
 void MoveTool::update(std::span<const ToolEvent> events, const ToolContext& context, ActionSink& sink) {

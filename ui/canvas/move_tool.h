@@ -8,8 +8,8 @@
 namespace oversketch {
 
 /// The pasted part's frame in the target: the box of its sketch, turned and scaled as the layer is.
-using Frame = std::array<Point, 4>;
-std::optional<Frame> frame_of(const Layer& layer);
+using LayerFrame = std::array<Point, 4>;
+std::optional<LayerFrame> frame_of(const Layer& layer);
 
 /// Moves, turns and scales the pasted part: a drag inside moves it by whole pixels, one outside its frame turns it, one
 /// at a corner scales it, about the frame's middle; Shift keeps to an axis, to 15°, to steps of 5 %.  Arrows nudge it

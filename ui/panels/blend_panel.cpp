@@ -44,14 +44,18 @@ void draw_domain(const LayerSettings& settings, const DrawContext& context) {
   execute(context, set);
 }
 
-void draw_setting(const DrawContext& context, const char* id, const char* label, const char* tip, const char* field,
-                  double value, void (*put)(LayerSet&, double)) {
-  const SliderChange change = draw_slider(context, id, label, {tip, {}}, value, setting_slider(field));
-  emit_slider(context.sink, change, [put](double to) {
-    LayerSet set;
-    put(set, to);
-    return set;
-  });
+void draw_sampling(const LayerSettings& settings, const DrawContext& context) {
+  static constexpr std::array kSamplings = {
+      Option{"bilinear", "Bilinear", "Quick, a little soft where the part is enlarged."},
+      Option{"bicubic", "Bicubic", "Sharper where the part is enlarged."},
+  };
+  const int chosen =
+      draw_choice(context, "blend.sampling", "Sampling", {"How the source is read where it is bent.", {}}, kSamplings,
+                  static_cast<int>(settings.sampling));
+  if (chosen < 0) return;
+  LayerSet set;
+  set.sampling = static_cast<WarpSampling>(chosen);
+  execute(context, set);
 }
 
 } // namespace
@@ -81,7 +85,13 @@ void draw_blend_panel(const BlendModel& model, const DrawContext& context) {
   draw_setting(context, "blend.feather", "Feather",
                "With a strength below 100 %, or a plain paste: over how many target pixels it sets in.", "feather_px",
                model.settings->feather_px, [](LayerSet& set, double value) { set.feather_px = value; });
+  draw_setting(
+      context, "blend.screening", "Screening",
+      "How far from the edge the colour matching dies away, target pixels. Keeps a colour that bleeds in at one "
+      "place from tinting the whole part; 0 matches all of it.",
+      "screening", model.settings->screening, [](LayerSet& set, double value) { set.screening = value; });
   draw_domain(*model.settings, context);
+  draw_sampling(*model.settings, context);
   if (model.mismatch.size() >= 2)
     draw_plot(
         context, "blend.mismatch",

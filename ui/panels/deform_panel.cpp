@@ -17,17 +17,6 @@ std::string print(const char* format, double value) {
   return text;
 }
 
-/// One setting's slider, as previews and a commit of layer.set.
-void draw_setting(const DrawContext& context, const char* id, const char* label, const char* tip, const char* field,
-                  double value, void (*put)(LayerSet&, double)) {
-  const SliderChange change = draw_slider(context, id, label, {tip, {}}, value, setting_slider(field));
-  emit_slider(context.sink, change, [put](double to) {
-    LayerSet set;
-    put(set, to);
-    return set;
-  });
-}
-
 void draw_method(const LayerSettings& settings, const DrawContext& context) {
   static constexpr std::array kMethods = {
       Option{"flipfree", "Flip-free",

@@ -2,16 +2,18 @@
 
 #include "ui/panels/panel_parts.h"
 
+#include <span>
 #include <string>
-#include <vector>
 
 namespace oversketch {
 
 struct HistoryModel {
-  std::vector<std::string> labels;
+  /// The snapshot's own.
+  std::span<const std::string> labels;
   std::size_t cursor = 0;
 };
 
+/// @param snapshot  must outlive the model.
 HistoryModel make_history_model(const Snapshot& snapshot);
 
 /// What the panel keeps from frame to frame: where the list has been scrolled to.

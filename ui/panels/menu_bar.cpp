@@ -71,8 +71,10 @@ void draw_menu(const MenuTitle& title, const EntryContext& entries, const DrawCo
 } // namespace
 
 std::string document_title(const EditorState& state, const Snapshot* snapshot) {
-  if (state.tab() == nullptr) return {};
-  return state.tab()->name + (snapshot != nullptr && snapshot->modified ? " *" : "");
+  const Tab* tab = state.tab();
+  if (tab == nullptr) return {};
+  const std::string name = tab->path.empty() ? tab->name : tab->path.filename().string();
+  return name + (snapshot != nullptr && snapshot->modified ? " *" : "");
 }
 
 void draw_overlay_entries(const EntryContext& entries, std::string_view prefix, const DrawContext& context) {

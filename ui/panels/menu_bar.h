@@ -8,7 +8,7 @@
 
 namespace oversketch {
 
-/// "puffer-in-the-sea *": the document in front, with a star while it is not saved.
+/// "puffer-in-the-sea.ora *": the document in front, with a star while it is not saved.
 std::string document_title(const EditorState& state, const Snapshot* snapshot);
 
 /// The menus, between the program's name and the document's.  To be called within a window that has a menu bar.

@@ -29,6 +29,7 @@ SliderSpec bar_of(std::string_view field) {
   if (field == "strength") return {.initial = start.strength, .factor = 100, .unit = "%"};
   if (field == "opacity") return {.initial = start.opacity, .factor = 100, .unit = "%"};
   if (field == "feather_px") return {.low = 0, .high = 60, .initial = start.feather_px, .unit = "px"};
+  if (field == "screening") return {.low = 0, .high = 200, .initial = start.screening, .unit = "px"};
   CHECK(false, "a setting without a slider");
   return {};
 }
@@ -39,6 +40,16 @@ SliderSpec setting_slider(std::string_view field) {
   SliderSpec spec = bar_of(field);
   take_bounds(field, spec);
   return spec;
+}
+
+void draw_setting(const DrawContext& context, const char* id, const char* label, const char* tip, const char* field,
+                  double value, void (*put)(LayerSet&, double)) {
+  const SliderChange change = draw_slider(context, id, label, {tip, {}}, value, setting_slider(field));
+  emit_slider(context.sink, change, [put](double to) {
+    LayerSet set;
+    put(set, to);
+    return set;
+  });
 }
 
 void draw_entry_button(const EntryContext& entries, std::string_view name, std::string_view id, const char* icon,

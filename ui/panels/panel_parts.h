@@ -12,8 +12,14 @@ namespace oversketch {
 
 /// What the slider of one of `layer.set`'s numbers may be: its bounds and its start as the command table and a new
 /// layer have them, the bar's ends and the unit as a hand wants them.
-/// @param field  "cell_px", "stiffness", "follow", "handle_weight", "iterations", "strength", "opacity", "feather_px".
+/// @param field  "cell_px", "stiffness", "follow", "handle_weight", "iterations", "strength", "opacity", "feather_px",
+///   "screening".
 SliderSpec setting_slider(std::string_view field);
+
+/// That setting's slider; a drag is one step of the history.
+/// @param put  puts the number into the command.
+void draw_setting(const DrawContext& context, const char* id, const char* label, const char* tip, const char* field,
+                  double value, void (*put)(LayerSet&, double));
 
 /// A button that does what an entry of the menus does; pale where the entry is.
 void draw_entry_button(const EntryContext& entries, std::string_view entry, std::string_view id, const char* icon,

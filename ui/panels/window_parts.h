@@ -1,8 +1,6 @@
 #pragma once
 
-#if __has_include("ui/canvas/canvas_panel.h")
 #include "ui/canvas/canvas_panel.h"
-#endif
 #include "ui/panels/deform_panel.h"
 #include "ui/panels/dialogs.h"
 #include "ui/panels/file_browser.h"
@@ -24,9 +22,7 @@ struct WindowState::Parts {
   WindowFlags flags;
   /// Design pixels.
   float side_width = 320;
-#if __has_include("ui/canvas/canvas_panel.h")
   CanvasesState canvases;
-#endif
   LayersPanelState layers;
   DeformPanelState deform;
   HistoryPanelState history;

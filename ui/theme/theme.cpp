@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace oversketch {
 namespace {
 
@@ -68,7 +70,7 @@ void set_measures(ImGuiStyle& style, const ThemeLook& look) {
 } // namespace
 
 PackedColor faded(PackedColor color, float alpha) {
-  const auto opacity = static_cast<float>(color >> 24) * alpha;
+  const float opacity = static_cast<float>(color >> 24) * std::clamp(alpha, 0.0f, 1.0f);
   return (color & 0xffffffu) | static_cast<std::uint32_t>(opacity + 0.5f) << 24;
 }
 

@@ -142,6 +142,8 @@ TEST_F(Bars, MenusCarryOutTheirEntries) {
   EXPECT_EQ(document_title(state, &snapshot), "sea");
   snapshot.modified = true;
   EXPECT_EQ(document_title(state, &snapshot), "sea *");
+  state.tabs[0].path = "/a/sea.ora";
+  EXPECT_EQ(document_title(state, &snapshot), "sea.ora *");
 }
 
 TEST_F(Bars, StripPicksToolsAndOpensOverlaysAndComparison) {

@@ -26,12 +26,13 @@ public:
   bool two = true;
   bool mouse_free = true;
   bool keys_free = true;
+  bool covered = false;
   Modifiers modifiers;
 
   CanvasFrame frame() const {
     return {state,      view,       snapshot,   lay_out_canvases({{0, 0}, {500, 300}}, view.split, two, 5),
             {200, 160}, {300, 200}, mouse_free, keys_free,
-            1};
+            covered,    1};
   }
   void send(InputEvents events) {
     for (InputEvent& event : events) {
@@ -233,6 +234,18 @@ TEST(CanvasInput, nothing_is_pressed_through_what_lies_over_the_canvas) {
   hand.drag({282, 80}, {300, 80});
   hand.send({H::wheel({282, 80}, {0, 1})});
   EXPECT_TRUE(hand.take().empty());
+}
+
+TEST(CanvasInput, a_dialog_ends_what_is_held) {
+  H hand(one_layer());
+  hand.state.tool = Tool::kMove;
+  hand.send({H::press({282, 80}), H::move({300, 80})});
+  hand.covered = true;
+  hand.send({});
+  EXPECT_FALSE(hand.input.held());
+  hand.covered = false;
+  hand.send({H::move({330, 80})});
+  expect_no_change(hand.take());
 }
 
 TEST(CanvasInput, the_splitter_and_the_slider_are_dragged) {

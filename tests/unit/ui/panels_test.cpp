@@ -173,7 +173,8 @@ TEST(SettingSliders, KeepToTheCommandsRangesAndStarts) {
                                                    {"iterations", start.iterations},
                                                    {"strength", start.strength},
                                                    {"opacity", start.opacity},
-                                                   {"feather_px", start.feather_px}}) {
+                                                   {"feather_px", start.feather_px},
+                                                   {"screening", start.screening}}) {
     const SliderSpec spec = setting_slider(field);
     EXPECT_EQ(spec.initial, initial) << field;
     EXPECT_GE(spec.low, spec.least) << field;
@@ -245,16 +246,17 @@ TEST_F(Panels, AlternativesAreAskedForWhileTheyAreSeen) {
 
 TEST_F(Panels, AlternativesAreClicked) {
   for (int i = 0; i < 3; ++i)
-    snapshot.alternatives.push_back({i, 1.0 + i, std::make_shared<const Raster<Rgba8>>(8, 8)});
+    snapshot.alternatives.push_back(
+        {PinAdd{{}, {1.0 * i, 2}, {3, 4}}, 1.0 + i, std::make_shared<const Raster<Rgba8>>(8, 8)});
   show([this](const DrawContext& context) {
     draw_deform_panel(make_deform_model(snapshot), deform, this, pictures, context);
   });
   take();
   click("deform.alternative.2");
-  EXPECT_EQ(take_all<action::Execute>().size(), 1U);
-  snapshot.alternatives.resize(1);
+  EXPECT_EQ(take_command<PinAdd>().outline, (Point{2, 2})) << "the pin that holds it";
+  snapshot.alternatives.clear();
   frame();
-  EXPECT_FALSE(has("deform.alternative.0")) << "one fit is no choice";
+  EXPECT_FALSE(has("deform.alternative.0"));
 }
 
 TEST_F(Panels, BlendingSetsModeStrengthFeatherAndDomain) {
@@ -278,6 +280,13 @@ TEST_F(Panels, BlendingSetsModeStrengthFeatherAndDomain) {
   click("blend.feather", 0.5F);
   wait();
   EXPECT_NEAR(*take_command<LayerSet>().feather_px, 30, 1);
+  click("blend.screening", 0.5F);
+  wait();
+  EXPECT_NEAR(*take_command<LayerSet>().screening, 100, 2);
+  click("blend.sampling");
+  frame();
+  click("blend.sampling.bicubic");
+  EXPECT_EQ(take_command<LayerSet>().sampling, WarpSampling::kBicubic);
 }
 
 TEST_F(Panels, WithoutALayerThePanelsSaySo) {
