@@ -73,8 +73,9 @@ void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float
     membrane->walk(
         values, index, run.y, [&](const Float4* at, int count) { u.insert(u.end(), at, at + count); },
         [&](Float4 value, const Float4& step, int count) {
-          for (int i = 0; i < count; ++i, value += step)
-            u.push_back(value);
+          u.resize(u.size() + static_cast<std::size_t>(count));
+          for (Float4* to = u.data() + u.size() - count; to != u.data() + u.size(); ++to, value += step)
+            *to = value;
         });
   else
     u.resize(static_cast<std::size_t>(run.x1 - run.x0));
