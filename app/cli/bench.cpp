@@ -23,7 +23,7 @@ struct Options {
 std::vector<BenchGroup> all_groups() {
   std::vector<BenchGroup> groups;
   for (auto&& part : {deform_benches(), edit_benches(), quality_benches(), paper_benches(), picture_benches(),
-                      warp_benches(), membrane_benches(), mixed_benches()})
+                      warp_benches(), membrane_benches(), mixed_benches(), project_benches()})
     groups.insert(groups.end(), part.begin(), part.end());
   return groups;
 }

@@ -60,6 +60,7 @@ std::vector<BenchGroup> picture_benches();
 std::vector<BenchGroup> membrane_benches();
 std::vector<BenchGroup> warp_benches();
 std::vector<BenchGroup> mixed_benches();
+std::vector<BenchGroup> project_benches();
 
 /// All *.json of a folder, by name, made ready.
 /// @errors bench.no-cases; file.unreadable; those of read_case() and of the solver, with the file as the place.

@@ -37,7 +37,8 @@ std::string find_fault(std::string_view name, const IoLimits& limits) {
   // Folders have entries of their own: "data/".
   const fs::path path(name.back() == '/' ? name.substr(0, name.size() - 1) : name);
   for (const fs::path& piece : path)
-    if (piece == ".." || piece == "." || piece.empty()) return "has a name that leads elsewhere";
+    if (piece == ".." || piece == ".") return "has a name that leads elsewhere";
+  if (name.find("//") != std::string_view::npos) return "has a name with an empty folder";
   return "";
 }
 

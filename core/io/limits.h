@@ -5,7 +5,7 @@
 
 namespace oversketch {
 
-/// What a file from elsewhere may ask of this machine.  Each is checked before what it bounds is
+/// What a file from elsewhere may ask of this machine; THREATS.md says why.  Each is checked before what it bounds is
 /// allocated.
 struct IoLimits {
   /// Of the archive as it lies on the disk.

@@ -1,0 +1,74 @@
+#include "core/io/journal_writer.h"
+
+#include "tests/unit/io/projects.h"
+
+namespace oversketch {
+namespace {
+
+using namespace testing;
+namespace fs = std::filesystem;
+
+TEST(JournalWriter, writes_everything_in_order_before_it_goes) {
+  const TempFolder folder;
+  const Session session = small_session();
+  fs::path left;
+  {
+    auto journal = Journal::begin(folder.path(), "work");
+    ASSERT_TRUE(journal.ok());
+    left = journal->folder();
+    JournalWriter writer(std::move(*journal));
+    for (const Step& step : session.log())
+      writer.append(step);
+    writer.flush();
+    EXPECT_EQ(writer.problem(), std::nullopt);
+    writer.mark_saved("later.ora");
+    writer.append(UndoStep{2});
+  }
+  const auto found = list_abandoned_journals(folder.path());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "later.ora");
+  EXPECT_EQ(found[0].unsaved_steps, 1);
+  const auto recovered = recover_journal(left);
+  ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
+  EXPECT_EQ(recovered->session.history().cursor(), session.history().cursor() - 2);
+  EXPECT_EQ(recovered->session.history().entries().back().document, session.document());
+}
+
+TEST(JournalWriter, tells_what_could_not_be_written_and_goes_on_when_it_can) {
+  const TempFolder folder;
+  auto journal = Journal::begin(folder.path(), "work");
+  ASSERT_TRUE(journal.ok());
+  const fs::path left = journal->folder();
+  {
+    JournalWriter writer(std::move(*journal));
+    // A file where the pictures' folder should be.
+    ASSERT_TRUE(write_file(left / "images", "in the way").ok());
+    DocumentNew begin;
+    begin.target = loaded_ref("target.png", wavy_image(20, 20, 1));
+    writer.append(begin);
+    writer.flush();
+    ASSERT_TRUE(writer.problem().has_value());
+    EXPECT_EQ(writer.problem()->code, "file.write");
+    fs::remove(left / "images");
+    writer.append(LayerAdd{{std::string(kTargetName), {}}, {}});
+    writer.flush();
+    EXPECT_EQ(writer.problem(), std::nullopt);
+  }
+  const auto recovered = recover_journal(left);
+  ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
+  EXPECT_EQ(recovered->steps, 2);
+}
+
+TEST(JournalWriter, leaves_nothing_after_a_clean_exit) {
+  const TempFolder folder;
+  auto journal = Journal::begin(folder.path(), "work");
+  ASSERT_TRUE(journal.ok());
+  const fs::path left = journal->folder();
+  JournalWriter writer(std::move(*journal));
+  writer.append(new_document(20, 20));
+  writer.discard();
+  EXPECT_FALSE(fs::exists(left));
+}
+
+} // namespace
+} // namespace oversketch
