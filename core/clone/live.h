@@ -37,14 +37,15 @@ private:
 /// nowhere else.
 ///
 /// @param below   the picture under the layer; what the differences on the ring are taken from.
-/// @param out     of the same size (CHECK); holds `below` where the layer is not.  All pixels of the mask shifted by
+/// @param out     of the same size (CHECK), or `below` itself; holds `below` where the layer is not.  All pixels of the
+/// mask shifted by
 ///   (dx, dy) are written, no others: where the layer stood before, the caller restores what was below.
 /// @param system  the one that the region was made with, or a copy (CHECK).
 /// @param threads  1…64 (CHECK) that paint; the same bits with any number.
 /// @errors clone.bad-option; clone.empty-target; those of the system's parts; cancelled.  Then `out` is as before.
-/// @cost a membrane's solution and the painting: 0.6, 1.5, 4.5 ms for smooth opaque shapes of 2¹⁸, 2²⁰ and 2²² pixels,
-///   imported at kDrag in the encoded domain; with other options about 20 ns a pixel more.  Mixed gradients are solved
-///   on every pixel.
+/// @cost a membrane's solution and the painting: 0.8, 2.3, 6.5 ms for smooth opaque shapes of 2¹⁸, 2²⁰ and 2²² pixels,
+///   imported at kDrag in the encoded domain; with other options about 10 ns a pixel more, in other domains 20.  Mixed
+///   gradients are solved on every pixel.
 /// @threads one call an `out` at a time; all else may be shared.
 Result<CloneReport> clone_live(const Raster<Rgba8>& below, Raster<Rgba8>& out, const LiveRegion& region,
                                const CloneSystem& system, int dx, int dy, const BlendOptions& options,
