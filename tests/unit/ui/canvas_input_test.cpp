@@ -196,7 +196,7 @@ TEST(CanvasInput, a_tools_key_switches_for_good_or_for_a_drag) {
   hand.send({H::down(key_of('V'))});
   EXPECT_EQ(hand.state.tool, Tool::kMove);
   hand.drag({282, 80}, {294, 80});
-  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{10, 0}));
+  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{12, 0}));
   hand.send({H::up(key_of('V'))});
   EXPECT_EQ(hand.state.tool, Tool::kSketch);
 
@@ -207,7 +207,7 @@ TEST(CanvasInput, a_tools_key_switches_for_good_or_for_a_drag) {
   EXPECT_EQ(hand.state.tool, Tool::kMove);
   hand.send({H::release({300, 80})});
   EXPECT_EQ(hand.state.tool, Tool::kSketch);
-  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{16, 0}));
+  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{18, 0}));
 }
 
 TEST(CanvasInput, key_and_drag_within_one_frame) {
@@ -223,7 +223,7 @@ TEST(CanvasInput, a_drag_belongs_to_where_it_began) {
   H hand(one_layer());
   hand.state.tool = Tool::kMove;
   hand.send({H::press({282, 80}), H::move({400, 80}), H::move({20, 900}), H::release({20, 900})});
-  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{-264, 820}));
+  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{-262, 820}));
   EXPECT_FALSE(hand.input.held());
 }
 

@@ -68,7 +68,7 @@ protected:
   EditorState state;
   CanvasesState canvases;
   NoPictures pictures;
-  ThemeLook look;
+  ThemeLook look = make_look(Theme::kDark, 1);
   WidgetMap widgets;
   FrameReply reply;
 
@@ -138,10 +138,10 @@ TEST_F(CanvasPanel, draws_every_overlay) {
   bool Overlays::*const toggles[] = {&Overlays::curves,       &Overlays::correspondence, &Overlays::handles,
                                      &Overlays::control_mesh, &Overlays::display_mesh,   &Overlays::heat_sigma,
                                      &Overlays::heat_area};
-  for (bool Overlays::*const toggle : toggles) {
+  for (bool Overlays::*const& toggle : toggles) {
     state.overlays = {};
     state.overlays.*toggle = !(state.overlays.*toggle);
-    EXPECT_NE(count(), usual);
+    EXPECT_NE(count(), usual) << "overlay " << (&toggle - toggles);
   }
   state.overlays = {};
   state.overlays.shown = false;
