@@ -15,8 +15,9 @@ public:
 
   /// How many are solved at the most, the one that is shown among them.
   static constexpr int kOffered = 4;
-  /// Runners-up whose match costs this much more than the best one's are no close calls.
-  static constexpr double kCloseCall = 0.08;
+  /// Runners-up whose match costs this much more than the best one's are no close calls: ambiguous bars and squares
+  /// differ by up to 0.003, a fish from the same fish turned over by 0.05.
+  static constexpr double kCloseCall = 0.02;
 
 private:
   ContentCache<std::vector<AlternativeSnapshot>> known_{4};

@@ -223,9 +223,9 @@ Watch LiveSession::State::watch_of(std::stop_token stop) {
 
 void LiveSession::State::serve(live::Request& request) {
   const Watch watch = watch_of(inbox.serving());
-  const bool gesture = session.has_preview();
   auto outcome = guarded([&] { return std::visit([&](auto& one) { return carry_out(one, watch); }, request); });
-  if (outcome || (outcome.error() == cancelled() && gesture)) return;
+  // A preview is stopped by giving up its gesture: that is no news.
+  if (outcome || (outcome.error() == cancelled() && std::holds_alternative<live::Preview>(request))) return;
   refuse(outcome.error());
 }
 
