@@ -25,6 +25,9 @@ int choose_threads(int wanted) {
 
 Result<void> run_jobs(const std::vector<std::function<Result<void>()>>& jobs, int threads, const Watch& watch,
                       std::string_view stage) {
+  if (watch.stopped()) return cancelled();
+  // Told before the first job: the others may take all of them before this thread comes to one.
+  watch.report(0, stage);
   std::vector<std::optional<Error>> errors(jobs.size());
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<bool> failed = false;
