@@ -14,10 +14,10 @@ namespace {
 /// An arc of 340°, radius 100, drawn with a trembling hand.
 Points trembling_arc(double tremble, int count = 700, double scale = 1) {
   std::mt19937 random(7);
-  std::normal_distribution<double> noise(0, tremble);
+  std::normal_distribution<double> noise(0, 1);
   Points points;
   for (int i = 0; i < count; ++i) {
-    const double angle = 5.9 * i / (count - 1), r = 100 + noise(random);
+    const double angle = 5.9 * i / (count - 1), r = 100 + tremble * noise(random);
     points.push_back(scale * r * Point{std::cos(angle), std::sin(angle)});
   }
   return points;
