@@ -54,7 +54,7 @@ Result<OpenedFile> open_project(Session& session, const fs::path& path, const Wa
   auto loaded = load_project(path, {}, watch);
   if (!loaded) return loaded.error();
   session.adopt(std::move(loaded->session));
-  return OpenedFile{loaded->read_only, loaded->message};
+  return OpenedFile{loaded->read_only || loaded->foreign, loaded->message};
 }
 
 } // namespace
