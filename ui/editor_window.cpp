@@ -12,6 +12,7 @@
 #include "ui/widgets/item.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace oversketch {
 namespace {
@@ -49,8 +50,8 @@ WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, 
   return lay_out_window({.size = ImGui::GetIO().DisplaySize,
                          .scale = context.look.scale,
                          .side_width = parts.side_width,
-                         .side = parts.flags.side_panel,
-                         .side_over = parts.flags.side_over,
+                         .side = parts.flags.side_panel && !state.tabs.empty(),
+                         .side_over = parts.flags.side_over && !state.tabs.empty(),
                          .tabs = !state.tabs.empty()});
 }
 
@@ -88,10 +89,11 @@ void draw_side_edge(Frame& frame) {
 void draw_middle(Frame& frame) {
   const ThemeLook& look = frame.context.look;
   const Area& area = frame.layout.canvases;
-  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.canvas);
   // A document that holds nothing yet, and is not being opened, offers the same as no document.
   const Tab* tab = frame.state.tab();
-  if (tab == nullptr || (frame.snapshot->document.empty() && !tab->session->activity().busy))
+  const bool empty = tab == nullptr || (frame.snapshot->document.empty() && !tab->session->activity().busy);
+  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, empty ? look.window : look.canvas);
+  if (empty)
     draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
   else
     draw_canvases(frame.state, frame.parts.canvases, frame.pictures, frame.events, area.low, area.high, frame.context);
@@ -102,7 +104,7 @@ void draw_strip(Frame& frame) {
   const ThemeLook& look = frame.context.look;
   ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.panel);
   draw_area("##strip", area, ImGuiWindowFlags_NoScrollbar,
-            [&] { draw_tool_strip(frame.entries, area, frame.context); });
+            [&] { draw_tool_strip(frame.entries, area, frame.layout.strip_columns, frame.context); });
   ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(area.high.x - look.px(1), area.low.y), area.high, look.line);
   register_box(frame.context, "panel.tools", area.low, area.high);
 }
@@ -140,9 +142,6 @@ void draw_parts(Frame& frame) {
     draw_side_panel({frame.state, frame.snapshot.get(), frame.parts, frame.pictures, frame.entries}, frame.layout.side,
                     frame.context);
   draw_side_edge(frame);
-  const Area& menu = frame.layout.menu;
-  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(menu.low.x, menu.high.y - frame.context.look.px(1)), menu.high,
-                                            frame.context.look.line);
 }
 
 } // namespace
@@ -165,6 +164,11 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   // Nor is anything undone or saved under a hand that is drawing.
   const bool drawing = parts.canvases.input.held();
   read_keys(events, drawing || dialog || parts.dialog_open || ImGui::GetIO().WantTextInput, frame.entries);
+
+  if (const int tab = state.tab() == nullptr ? 0 : state.tab()->id; std::exchange(parts.tab, tab) != tab) {
+    parts.flags.renaming.reset();
+    parts.layers.dragged.reset();
+  }
 
   const ThemeLook& look = context.look;
   ImGui::SetNextWindowPos(ImVec2(0, 0));

@@ -58,6 +58,20 @@ void draw_sampling(const LayerSettings& settings, const DrawContext& context) {
   execute(context, set);
 }
 
+void draw_seldom(const LayerSettings& settings, const DrawContext& context) {
+  const LayerSettings start;
+  const bool changed =
+      settings.screening != start.screening || settings.domain != start.domain || settings.sampling != start.sampling;
+  if (!draw_more(context, "blend.more", {"Screening, domain and sampling.", {}}, changed)) return;
+  draw_setting(
+      context, "blend.screening", "Screening",
+      "How far from the edge the colour matching dies away, target pixels. Keeps a colour that bleeds in at one "
+      "place from tinting the whole part; 0 matches all of it.",
+      "screening", settings.screening, [](LayerSet& set, double value) { set.screening = value; });
+  draw_domain(settings, context);
+  draw_sampling(settings, context);
+}
+
 } // namespace
 
 BlendModel make_blend_model(const Snapshot& snapshot) {
@@ -85,13 +99,7 @@ void draw_blend_panel(const BlendModel& model, const DrawContext& context) {
   draw_setting(context, "blend.feather", "Feather",
                "With a strength below 100 %, or a plain paste: over how many target pixels it sets in.", "feather_px",
                model.settings->feather_px, [](LayerSet& set, double value) { set.feather_px = value; });
-  draw_setting(
-      context, "blend.screening", "Screening",
-      "How far from the edge the colour matching dies away, target pixels. Keeps a colour that bleeds in at one "
-      "place from tinting the whole part; 0 matches all of it.",
-      "screening", model.settings->screening, [](LayerSet& set, double value) { set.screening = value; });
-  draw_domain(*model.settings, context);
-  draw_sampling(*model.settings, context);
+  draw_seldom(*model.settings, context);
   if (model.mismatch.size() >= 2)
     draw_plot(
         context, "blend.mismatch",

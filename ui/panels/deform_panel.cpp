@@ -63,20 +63,21 @@ std::string describe_stages(const StageTimes& times) {
 void draw_numbers(const DeformModel& model, const DrawContext& context) {
   if (!model.metrics) return;
   const Metrics& metrics = *model.metrics;
-  draw_number(context, "deform.numbers.flipped", "Folded cells", std::to_string(model.flipped),
-              {"Cells of the mesh that are turned inside out. There should be none.", {}}, model.flipped > 0);
-  draw_number(
-      context, "deform.numbers.sigma", "Mean σ1/σ2", print("%.3f", metrics.distortion.sigma_ratio_mean),
+  NumberGrid grid(context);
+  grid.draw("deform.numbers.flipped", "Folded", std::to_string(model.flipped),
+            {"Cells of the mesh that are turned inside out. There should be none.", {}}, model.flipped > 0);
+  grid.draw("deform.numbers.time", "Time", print("%.0f ms", model.times.total_ms()),
+            {describe_stages(model.times), {}});
+  grid.draw(
+      "deform.numbers.sigma", "Mean σ1/σ2", print("%.2f", metrics.distortion.sigma_ratio_mean),
       {"How far cells are squeezed on average: longest by shortest side of what a square becomes. 1 is not at all.",
        {}});
-  draw_number(context, "deform.numbers.worst", "Worst cell", print("%.2f", metrics.distortion.sigma_ratio_max),
-              {"The same of the cell that is squeezed most.", {}});
-  draw_number(context, "deform.numbers.distance", "To the sketch", print("%.2f px", metrics.sketch_distance.mean),
-              {"Mean distance between the part's boundary and the sketch, target pixels; at most " +
-                   print("%.2f px.", metrics.sketch_distance.max),
-               {}});
-  draw_number(context, "deform.numbers.time", "Time", print("%.0f ms", model.times.total_ms()),
-              {describe_stages(model.times), {}});
+  grid.draw("deform.numbers.worst", "Worst", print("%.2f", metrics.distortion.sigma_ratio_max),
+            {"The same of the cell that is squeezed most.", {}});
+  grid.draw("deform.numbers.distance", "To sketch", print("%.2f px", metrics.sketch_distance.mean),
+            {"Mean distance between the part's boundary and the sketch, target pixels.", {}});
+  grid.draw("deform.numbers.farthest", "Farthest", print("%.1f px", metrics.sketch_distance.max),
+            {"The same where it is greatest.", {}});
 }
 
 void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawContext& context) {

@@ -43,7 +43,7 @@ bool draw_theme(Preferences& preferences, const DrawContext& context) {
 bool draw_scale(Preferences& preferences, const DrawContext& context) {
   const SliderSpec spec{.low = 0.5, .high = 3, .least = 0.5, .most = 3, .initial = 1, .factor = 100, .unit = "%"};
   const SliderChange change =
-      draw_slider(context, "preferences.scale", "Size of the interface",
+      draw_slider(context, "preferences.scale", "Interface size",
                   {"Of text and buttons, on top of what the display asks for, %.", {}}, preferences.ui_scale, spec);
   if (change.kind == SliderChange::Kind::kPreview) return false;
   return take(change, preferences.ui_scale, context);

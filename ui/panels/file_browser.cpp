@@ -1,12 +1,7 @@
 #include "ui/panels/file_browser.h"
 
-#include "core/image/image_io.h"
-#include "core/image/resample.h"
-#include "ui/state/file_jobs.h"
-
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <system_error>
 
 namespace oversketch {
@@ -15,8 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 using For = FileRequest::For;
 
-constexpr int kPreview_px = 320;
-constexpr std::uintmax_t kMostPreviewBytes = 64'000'000;
 /// Letters typed within this time make one word.
 constexpr double kTypingPause_s = 0.8;
 constexpr int kPage = 12;
@@ -40,31 +33,6 @@ fs::path existing_folder(fs::path path) {
 }
 
 } // namespace
-
-FilePreview read_preview(const fs::path& path) {
-  FilePreview preview{path, nullptr, {}};
-  std::error_code error;
-  if (!is_picture(path)) return preview;
-  if (fs::file_size(path, error) > kMostPreviewBytes || error) return preview;
-  const auto image = load_image(path);
-  if (!image) {
-    preview.text = image.error().sentence;
-    return preview;
-  }
-  preview.text = std::to_string(image->width()) + " × " + std::to_string(image->height()) + " px";
-  const double scale = std::min(1.0, static_cast<double>(kPreview_px) / std::max(image->width(), image->height()));
-  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
-  preview.picture = std::make_shared<const Raster<Rgba8>>(
-      to_display(downscaled(*image, side(image->width()), side(image->height()))));
-  return preview;
-}
-
-fs::path with_saved_ending(const fs::path& path, For purpose, ExportFormat format) {
-  if (path.has_extension()) return path;
-  fs::path out = path;
-  out += purpose == For::kSaveAs ? kProjectEnding : format == ExportFormat::kJpeg ? ".jpg" : ".png";
-  return out;
-}
 
 FileBrowser::FileBrowser(std::function<void()> wake, fs::path samples)
     : places_(make_places(samples)),
@@ -106,8 +74,7 @@ void FileBrowser::begin(const FileRequest& request) {
   if (saves() && !is_folder(start)) {
     name = start.filename().string();
     start = start.parent_path();
-    format_ =
-        kind_of_file(name) == FileKind::kPicture && name.ends_with(".jpg") ? ExportFormat::kJpeg : ExportFormat::kPng;
+    format_ = format_of(name);
   }
   // Without a proposal: where the browser was the last time, or at home.
   if (start.empty()) start = !folder_.empty() ? folder_ : path_of("~", {});

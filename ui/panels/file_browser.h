@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/image/display.h"
 #include "ui/canvas/input.h"
+#include "ui/panels/file_kinds.h"
 #include "ui/panels/file_listing.h"
 #include "ui/panels/latest_worker.h"
 #include "ui/widgets/draw_context.h"
@@ -14,18 +14,6 @@
 #include <vector>
 
 namespace oversketch {
-
-/// What is seen of a picture before it is opened.
-struct FilePreview {
-  std::filesystem::path path;
-  std::shared_ptr<const Raster<Rgba8>> picture;
-  /// "1440 × 1080", or why there is nothing to see.
-  std::string text;
-};
-/// Reads a picture and makes it small; files above 64 MB are not read for that.  For a worker.
-FilePreview read_preview(const std::filesystem::path& path);
-
-enum class ExportFormat { kPng, kPng16, kJpeg };
 
 /// The file browser's mind: where it is, what it lists, what is typed and chosen.  Folders and pictures are read on
 /// threads of its own, so that no disk is ever waited for.
@@ -137,9 +125,5 @@ private:
 /// "browser.sort.name" …, "browser.row.0" …, "browser.filter", "browser.name", "browser.format.png" …,
 /// "browser.accept", "browser.cancel", "browser.replace", "browser.keep".
 void draw_file_browser(FileBrowser& browser, Pictures& pictures, const InputEvents& events, const DrawContext& context);
-
-/// The path with the ending that belongs to the request when it has none.
-std::filesystem::path with_saved_ending(const std::filesystem::path& path, FileRequest::For purpose,
-                                        ExportFormat format);
 
 } // namespace oversketch

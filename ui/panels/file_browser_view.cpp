@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace oversketch {
 namespace {
@@ -285,12 +286,21 @@ void draw_filter_row(FileBrowser& browser, const DrawContext& context) {
       Option{"pictures", "Pictures", "PNG, JPEG, BMP, TGA, Radiance HDR."},
       Option{"projects", "Projects", "Projects and scripts: .ora, .jsonl."},
   };
-  const RowBox row = begin_row(context, "Show");
+  const ThemeLook& look = context.look;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, gap = look.px(24);
+  const float hidden = std::min(look.px(130), width * 0.35F);
+  const float filters = std::min(look.px(330), width - hidden - gap);
+  ImGui::BeginChild("##filters", ImVec2(filters, look.px(24)), false, ImGuiWindowFlags_NoScrollbar);
   const int chosen = draw_segments(context, "browser.filter", kFilters, static_cast<int>(browser.filter()));
+  ImGui::EndChild();
   if (chosen >= 0) browser.set_filter(static_cast<FileFilter>(chosen));
-  end_row(context, row);
+  ImGui::SetCursorScreenPos(ImVec2(at.x + filters + gap, at.y));
+  ImGui::BeginChild("##hidden", ImVec2(hidden, look.px(24)), false, ImGuiWindowFlags_NoScrollbar);
   if (draw_toggle(context, "browser.hidden", "Hidden files", {"Names that begin with a point.", {}}, browser.hidden()))
     browser.show_hidden(!browser.hidden());
+  ImGui::EndChild();
+  ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + look.px(28)));
 }
 
 void draw_answers(FileBrowser& browser, const DrawContext& context) {
@@ -337,9 +347,11 @@ void draw_file_browser(FileBrowser& browser, Pictures& pictures, const InputEven
   const bool with_places = width > look.px(440), with_preview = width > look.px(640);
   const float places = with_places ? look.px(kPlaces) : 0;
   const float preview = with_preview ? look.px(kPreview) : 0, gap = look.px(10);
-  const float below =
-      look.px(120.0F + (browser.saves() ? 28.0F : 0.0F) + (browser.request().purpose == For::kExport ? 28.0F : 0.0F));
-  const float height = std::max(look.px(120), ImGui::GetContentRegionAvail().y - below);
+  // In a low window the kinds of files give way to the files.
+  const bool low = ImGui::GetIO().DisplaySize.y < look.px(400);
+  const bool exports = browser.request().purpose == For::kExport;
+  const float below = (browser.saves() ? 28.0F : 0.0F) + (exports ? 28.0F : 0.0F) + (low ? 0.0F : 28.0F) + 64;
+  const float height = std::max(look.px(low ? 60 : 120), ImGui::GetContentRegionAvail().y - look.px(below));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (with_places) draw_places(browser, ImVec2(places, height), context);
   ImGui::SetCursorScreenPos(ImVec2(at.x + places, at.y));
@@ -350,7 +362,7 @@ void draw_file_browser(FileBrowser& browser, Pictures& pictures, const InputEven
   }
   ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + height + look.px(8)));
   if (browser.saves()) draw_name_row(browser, dialog.appears(), context);
-  draw_filter_row(browser, context);
+  if (!low) draw_filter_row(browser, context);
   draw_answers(browser, context);
 }
 

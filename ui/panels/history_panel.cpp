@@ -3,12 +3,13 @@
 #include "ui/widgets/section.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oversketch {
 namespace {
 
-/// So many steps are seen at once; the list scrolls beyond.
-constexpr std::size_t kMostRows = 12;
+/// So many steps are seen at once, as many as there is room for in the panel; the list scrolls beyond.
+constexpr float kLeastRows = 5, kMostRows = 30;
 constexpr float kRow = 24;
 
 void draw_step(const HistoryModel& model, std::size_t index, const DrawContext& context) {
@@ -46,18 +47,19 @@ void draw_history_panel(const HistoryModel& model, HistoryPanelState& state, con
                         "Every step since the document was opened. Click one to go there.");
   if (!section.open() || model.labels.empty()) return;
   const float row = context.look.px(kRow);
-  const std::size_t rows = std::min(model.labels.size(), kMostRows);
-  ImGui::BeginChild("##steps", ImVec2(0, row * static_cast<float>(rows)));
+  const float room = (ImGui::GetContentRegionAvail().y - context.look.px(22)) / row;
+  const float rows = std::min(static_cast<float>(model.labels.size()), std::clamp(room, kLeastRows, kMostRows));
+  ImGui::BeginChild("##steps", ImVec2(0, std::floor(row * rows)));
   // A new step, or one that was jumped to, is brought into sight; after that the hand scrolls.
   if (state.shown_cursor != model.cursor || state.shown_count != model.labels.size()) {
-    const float middle = row * (static_cast<float>(model.cursor) - static_cast<float>(rows) / 2 + 0.5F);
+    const float middle = row * (static_cast<float>(model.cursor) - rows / 2 + 0.5F);
     ImGui::SetScrollY(std::max(0.0F, middle));
     state = {model.cursor, model.labels.size()};
   }
   const float top = ImGui::GetCursorScreenPos().y;
   const float x = ImGui::GetCursorScreenPos().x;
   const auto first = static_cast<std::size_t>(std::max(0.0F, ImGui::GetScrollY() / row));
-  const std::size_t last = std::min(model.labels.size(), first + rows + 2);
+  const std::size_t last = std::min(model.labels.size(), first + static_cast<std::size_t>(rows) + 3);
   for (std::size_t i = first; i < last; ++i) {
     ImGui::SetCursorScreenPos(ImVec2(x, top + row * static_cast<float>(i)));
     draw_step(model, i, context);

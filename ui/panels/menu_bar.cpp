@@ -2,7 +2,9 @@
 
 #include "ui/widgets/item.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace oversketch {
 namespace {
@@ -52,10 +54,12 @@ void draw_submenu(const char* label, const char* id, const char* tip, const Entr
   ImGui::EndMenu();
 }
 
-void draw_menu(const MenuTitle& title, const EntryContext& entries, const DrawContext& context) {
+/// @param padding  of entries; the bar's own, within which this is called, is that of its height.
+void draw_menu(const MenuTitle& title, ImVec2 padding, const EntryContext& entries, const DrawContext& context) {
   const bool open = ImGui::BeginMenu(title.label);
-  finish_item(context, title.id, {open ? "" : title.tip});
+  finish_item(context, title.id, {title.tip});
   if (!open) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
   for (const Entry& entry : oversketch::entries()) {
     if (entry.menu != title.menu) continue;
     draw_entry(entry, entries, context);
@@ -65,6 +69,7 @@ void draw_menu(const MenuTitle& title, const EntryContext& entries, const DrawCo
     draw_submenu("Compare with", "menu.view.compare", "Another result over a part of the picture.", entries, context,
                  draw_compare_entries);
   }
+  ImGui::PopStyleVar();
   ImGui::EndMenu();
 }
 
@@ -106,7 +111,11 @@ void draw_compare_entries(const EntryContext& entries, std::string_view prefix, 
 
 void draw_menu_bar(const EntryContext& entries, const Area& area, const DrawContext& context) {
   const ThemeLook& look = context.look;
-  if (!ImGui::BeginMenuBar()) return;
+  // The bar puts its text where a frame's padding says.
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const float middle = std::max(0.0F, std::floor((area.height() - ImGui::GetFontSize()) / 2));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(padding.x, middle));
+  if (!ImGui::BeginMenuBar()) return ImGui::PopStyleVar();
   const bool narrow = area.width() < look.px(520);
   ImGui::SetCursorPosX(look.px(narrow ? 2 : 10));
   if (!narrow) {
@@ -115,11 +124,14 @@ void draw_menu_bar(const EntryContext& entries, const Area& area, const DrawCont
     ImGui::SameLine(0, look.px(12));
   }
   for (const MenuTitle& title : kMenus)
-    draw_menu(title, entries, context);
+    draw_menu(title, padding, entries, context);
   const float used = ImGui::GetCursorScreenPos().x + look.px(16);
   draw_text(ImVec2(used, area.low.y), ImVec2(area.high.x - look.px(11), area.high.y), look.ink_quiet,
             document_title(entries.state, entries.snapshot), 1);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(ImVec2(area.low.x, area.high.y - look.px(1)), area.high, look.line);
   ImGui::EndMenuBar();
+  ImGui::PopStyleVar();
 }
 
 } // namespace oversketch

@@ -77,18 +77,30 @@ void draw_picture_in(Pictures& pictures, const std::shared_ptr<const Raster<Rgba
   if (texture) list->AddImageRounded(texture, low, high, ImVec2(0, 0), ImVec2(1, 1), IM_COL32_WHITE, look.px(2));
 }
 
-void draw_number(const DrawContext& context, std::string_view id, std::string_view label, std::string_view value,
-                 const Tip& tip, bool alarming) {
+NumberGrid::NumberGrid(const DrawContext& context)
+    : context_(context),
+      corner_(ImGui::GetCursorScreenPos()),
+      column_width_(std::max(1.0F, (ImGui::GetContentRegionAvail().x - context.look.px(18)) / 2)) {}
+
+NumberGrid::~NumberGrid() {
+  const auto rows = static_cast<float>((count_ + 1) / 2);
+  ImGui::SetCursorScreenPos(ImVec2(corner_.x, corner_.y + rows * context_.look.px(20)));
+}
+
+void NumberGrid::draw(std::string_view id, std::string_view label, std::string_view value, const Tip& tip,
+                      bool alarming) {
   const IdScope scope(id);
-  const ThemeLook& look = context.look;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(20));
+  const ThemeLook& look = context_.look;
+  const auto column = static_cast<float>(count_ % 2), row = static_cast<float>(count_ / 2);
+  const ImVec2 at(corner_.x + column * (column_width_ + look.px(18)), corner_.y + row * look.px(20));
+  const ImVec2 end(at.x + column_width_, at.y + look.px(20));
+  ++count_;
+  ImGui::SetCursorScreenPos(at);
   ImGui::InvisibleButton("##number", ImVec2(end.x - at.x, end.y - at.y));
-  finish_item(context, id, tip);
-  const float half = at.x + (end.x - at.x) * 0.45F;
-  draw_text(at, ImVec2(half, end.y), look.ink_quiet, label);
-  draw_text(ImVec2(half, at.y), end, alarming ? look.danger : look.ink, value, 1);
-  ImGui::SetCursorScreenPos(ImVec2(at.x, end.y));
+  finish_item(context_, id, tip);
+  const float used = std::min(ImGui::CalcTextSize(label.data(), label.data() + label.size()).x, column_width_ * 0.65F);
+  draw_text(at, ImVec2(at.x + used + 1, end.y), look.ink_quiet, label);
+  draw_text(ImVec2(at.x + used + look.px(6), at.y), end, alarming ? look.danger : look.ink, value, 1);
 }
 
 } // namespace oversketch

@@ -29,8 +29,21 @@ void draw_entry_button(const EntryContext& entries, std::string_view entry, std:
 void draw_picture_in(Pictures& pictures, const std::shared_ptr<const Raster<Rgba8>>& picture, ImVec2 corner, ImVec2 end,
                      const DrawContext& context);
 
-/// A quiet label with its value at the right, in one row.
-void draw_number(const DrawContext& context, std::string_view id, std::string_view label, std::string_view value,
-                 const Tip& tip, bool alarming = false);
+/// Numbers two to a row, each a quiet label with its value at the right.
+class NumberGrid {
+public:
+  explicit NumberGrid(const DrawContext& context);
+  ~NumberGrid();
+  NumberGrid(const NumberGrid&) = delete;
+  NumberGrid& operator=(const NumberGrid&) = delete;
+
+  void draw(std::string_view id, std::string_view label, std::string_view value, const Tip& tip, bool alarming = false);
+
+private:
+  const DrawContext& context_;
+  ImVec2 corner_;
+  float column_width_ = 0;
+  int count_ = 0;
+};
 
 } // namespace oversketch

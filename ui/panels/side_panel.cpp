@@ -28,9 +28,10 @@ void draw_side_panel(const SidePanelScene& scene, const Area& area, const DrawCo
   const ThemeLook& look = context.look;
   // A child of its own: over narrow canvases it must lie on top of theirs.
   ImGui::SetCursorScreenPos(area.low);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, look.panel);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::BeginChild("##side", ImVec2(area.width(), area.height()), false, ImGuiWindowFlags_NoScrollbar);
+  // Its ground by hand: Dear ImGui may put a child's into its parent, below the canvases that it lies over.
+  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, look.panel);
   ImGui::GetWindowDrawList()->AddRectFilled(area.low, ImVec2(area.low.x + look.px(1), area.high.y), look.line);
   const float pad = look.px(kPanelPad);
   ImGui::SetCursorScreenPos(ImVec2(area.low.x + pad, area.low.y));
@@ -43,7 +44,6 @@ void draw_side_panel(const SidePanelScene& scene, const Area& area, const DrawCo
   ImGui::EndChild();
   ImGui::EndChild();
   ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
   register_box(context, "panel.side", area.low, area.high);
 }
 

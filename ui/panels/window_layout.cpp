@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace oversketch {
+namespace {
+
+/// Below this height eight buttons do not fit one below the other, design pixels.
+constexpr float kLowStrip = 290;
+
+} // namespace
 
 WindowLayout lay_out_window(const LayoutWish& wish) {
   const auto px = [&](float design) { return std::round(design * wish.scale); };
@@ -14,7 +20,8 @@ WindowLayout lay_out_window(const LayoutWish& wish) {
   const float status = std::min(h - menu, px(24));
   const float bottom = h - status;
   const float tabs = wish.tabs ? std::min(bottom - menu, px(30)) : 0;
-  const float strip = std::min(w, px(out.narrow ? 40 : 52));
+  out.strip_columns = bottom - menu < px(kLowStrip) ? 2 : 1;
+  const float strip = std::min(w, px(out.strip_columns == 2 ? 70 : out.narrow ? 40 : 52));
   float side = 0;
   if (!out.narrow && wish.side)
     side = std::clamp(px(wish.side_width), px(kLeastSide), std::max(px(kLeastSide), std::min(px(kMostSide), w / 2)));

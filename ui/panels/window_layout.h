@@ -21,6 +21,8 @@ struct WindowLayout {
   Area canvases;
   Area side;
   Area status;
+  /// Of the tool strip's buttons: two where the window is low.
+  int strip_columns = 1;
   /// The window is too narrow for a side panel beside the canvases.
   bool narrow = false;
 };

@@ -29,6 +29,8 @@ struct WindowState::Parts {
   FileBrowser browser;
   NewDocumentState new_document;
   std::string shortcut_search;
+  /// The tab that the panels have in hand; what is being typed or dragged there ends with it.
+  int tab = 0;
   /// A dialog was drawn in the frame before.
   bool dialog_open = false;
 };

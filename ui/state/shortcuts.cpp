@@ -10,6 +10,8 @@ namespace oversketch {
 namespace {
 
 std::string name_of(Key key) {
+  if (key >= Key::kF1 && key <= Key::kF12)
+    return "F" + std::to_string(static_cast<int>(key) - static_cast<int>(Key::kF1) + 1);
   switch (key) {
   case Key::kEscape:
     return "Esc";
@@ -25,10 +27,6 @@ std::string name_of(Key key) {
     return "Page Up";
   case Key::kPageDown:
     return "Page Down";
-  case Key::kF1:
-    return "F1";
-  case Key::kF2:
-    return "F2";
   default:
     return {static_cast<char>(key)};
   }

@@ -1,5 +1,7 @@
 #include "ui/widgets/section.h"
 
+#include "ui/theme/icons.h"
+
 #include <algorithm>
 
 namespace oversketch {
@@ -43,6 +45,22 @@ Section::~Section() {
   const ImVec2 shown_low(corner_.x - pad, std::max(corner_.y, low.y)), shown_high(end.x + pad, std::min(end.y, high.y));
   if (shown_high.y > shown_low.y) register_box(context_, id_, shown_low, shown_high);
   ImGui::PopID();
+}
+
+bool draw_more(const DrawContext& context, std::string_view id, const Tip& tip, bool forced) {
+  const IdScope scope(id);
+  const ThemeLook& look = context.look;
+  int& stored = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##open"), 0);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(20));
+  if (ImGui::InvisibleButton("##more", ImVec2(end.x - at.x, end.y - at.y)) && !forced) stored = 1 - stored;
+  const PackedColor ink = ImGui::IsItemHovered() ? look.ink : look.ink_quiet;
+  finish_item(context, id, tip);
+  const bool open = stored != 0 || forced;
+  draw_text(at, end, ink, open ? icon::kCaretDown : icon::kCaretRight);
+  draw_text(ImVec2(at.x + look.px(14), at.y), end, ink, "More");
+  ImGui::SetCursorScreenPos(ImVec2(at.x, end.y + (open ? look.px(2) : 0)));
+  return open;
 }
 
 } // namespace oversketch

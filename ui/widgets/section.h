@@ -33,4 +33,9 @@ private:
   bool open_ = true;
 };
 
+/// A quiet row that unfolds what is seldom needed.
+/// @param forced  it is open whatever was clicked: something in it is not as it was from the start.
+/// @returns whether what belongs to it is to be drawn.
+bool draw_more(const DrawContext& context, std::string_view id, const Tip& tip, bool forced);
+
 } // namespace oversketch

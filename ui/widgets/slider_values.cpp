@@ -12,7 +12,7 @@ namespace {
 int decimals_of(double shown, const SliderSpec& spec) {
   if (spec.whole || spec.factor == 100) return 0;
   const double size = std::abs(shown);
-  if (!spec.logarithmic) return spec.high - spec.low >= 50 ? 0 : 2;
+  if (!spec.logarithmic) return spec.high - spec.low >= 20 ? 0 : 2;
   return size >= 9.95 ? 0 : size >= 0.995 ? 1 : size >= 0.0995 ? 2 : 3;
 }
 

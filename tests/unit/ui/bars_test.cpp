@@ -150,7 +150,7 @@ TEST_F(Bars, StripPicksToolsAndOpensOverlaysAndComparison) {
   const Area area{ImVec2(0, 31), ImVec2(52, 660)};
   show([&](const DrawContext& context) {
     ImGui::SetCursorScreenPos(area.low);
-    draw_tool_strip(entries, area, context);
+    draw_tool_strip(entries, area, 1, context);
   });
   expect_tips();
   for (const ToolRow& row : tool_rows()) {
@@ -177,7 +177,7 @@ TEST_F(Bars, SwitchingAnOverlayOnShowsThemAgain) {
   const Area area{ImVec2(0, 31), ImVec2(52, 660)};
   show([&](const DrawContext& context) {
     ImGui::SetCursorScreenPos(area.low);
-    draw_tool_strip(entries, area, context);
+    draw_tool_strip(entries, area, 1, context);
   });
   click("strip.overlays");
   frame();

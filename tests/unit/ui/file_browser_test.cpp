@@ -179,6 +179,8 @@ TEST_F(Browser, NewNamesNeedNoQuestionAndGetTheirEnding) {
   EXPECT_FALSE(exported[0].replace);
   EXPECT_EQ(with_saved_ending("a", For::kExport, ExportFormat::kJpeg), "a.jpg");
   EXPECT_EQ(with_saved_ending("a.png", For::kExport, ExportFormat::kJpeg), "a.png");
+  EXPECT_EQ(format_of("a.JPG"), ExportFormat::kJpeg);
+  EXPECT_EQ(format_of("a"), ExportFormat::kPng);
 }
 
 TEST_F(Browser, SavingIntoAFolderThatIsNotThereIsRefused) {

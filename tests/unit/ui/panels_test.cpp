@@ -269,6 +269,9 @@ TEST_F(Panels, BlendingSetsModeStrengthFeatherAndDomain) {
   click("blend.mode.mixed");
   EXPECT_EQ(take_command<LayerSet>().mode, CloneMode::kMixed);
   frame();
+  EXPECT_FALSE(has("blend.domain")) << "what is seldom needed is folded away";
+  click("blend.more");
+  frame();
   click("blend.domain");
   frame();
   click("blend.domain.log");

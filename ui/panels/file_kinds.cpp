@@ -1,0 +1,56 @@
+#include "ui/panels/file_kinds.h"
+
+#include "core/image/image_io.h"
+#include "core/image/resample.h"
+#include "ui/panels/file_listing.h"
+#include "ui/state/file_jobs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <system_error>
+
+namespace oversketch {
+namespace {
+
+namespace fs = std::filesystem;
+using For = FileRequest::For;
+
+constexpr int kPreview_px = 320;
+constexpr std::uintmax_t kMostPreviewBytes = 64'000'000;
+
+} // namespace
+
+FilePreview read_preview(const fs::path& path) {
+  FilePreview preview{path, nullptr, {}};
+  std::error_code error;
+  if (!is_picture(path)) return preview;
+  if (fs::file_size(path, error) > kMostPreviewBytes || error) return preview;
+  const auto image = load_image(path);
+  if (!image) {
+    preview.text = image.error().sentence;
+    return preview;
+  }
+  preview.text = std::to_string(image->width()) + " × " + std::to_string(image->height()) + " px";
+  const double scale = std::min(1.0, static_cast<double>(kPreview_px) / std::max(image->width(), image->height()));
+  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
+  preview.picture = std::make_shared<const Raster<Rgba8>>(
+      to_display(downscaled(*image, side(image->width()), side(image->height()))));
+  return preview;
+}
+
+fs::path with_saved_ending(const fs::path& path, For purpose, ExportFormat format) {
+  if (path.has_extension()) return path;
+  fs::path out = path;
+  out += purpose == For::kSaveAs ? kProjectEnding : format == ExportFormat::kJpeg ? ".jpg" : ".png";
+  return out;
+}
+
+ExportFormat format_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return ending == ".jpg" || ending == ".jpeg" ? ExportFormat::kJpeg : ExportFormat::kPng;
+}
+
+} // namespace oversketch
