@@ -10,8 +10,11 @@ namespace oversketch {
 namespace {
 
 std::string name_of(Key key) {
-  if (key >= Key::kF1 && key <= Key::kF12)
-    return "F" + std::to_string(static_cast<int>(key) - static_cast<int>(Key::kF1) + 1);
+  if (key >= Key::kF1 && key <= Key::kF12) {
+    // Appended, not added: GCC 12 warns of a sum here without reason.
+    std::string name = "F";
+    return name += std::to_string(static_cast<int>(key) - static_cast<int>(Key::kF1) + 1);
+  }
   switch (key) {
   case Key::kEscape:
     return "Esc";
