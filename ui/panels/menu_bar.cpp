@@ -59,6 +59,7 @@ void draw_menu(const MenuTitle& title, ImVec2 padding, const EntryContext& entri
   const bool open = ImGui::BeginMenu(title.label);
   finish_item(context, title.id, {title.tip});
   if (!open) return;
+  close_popup_on_escape();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
   for (const Entry& entry : oversketch::entries()) {
     if (entry.menu != title.menu) continue;

@@ -98,6 +98,7 @@ void draw_overlays_button(const EntryContext& entries, const Area& area, StripCu
     ImGui::OpenPopup("##overlays");
   place_beside(ImVec2(area.high.x, ImGui::GetItemRectMin().y), context);
   if (!ImGui::BeginPopup("##overlays")) return;
+  close_popup_on_escape();
   const Entry& all = entry_of("view.overlays");
   if (ImGui::MenuItem("All overlays", "Tab", shown)) all.act(entries);
   finish_item(context, "strip.overlays.all", {std::string(all.help), keys_of(all)});
@@ -116,6 +117,7 @@ void draw_compare_button(const EntryContext& entries, const Area& area, StripCur
     ImGui::OpenPopup("##compare");
   place_beside(ImVec2(area.high.x, ImGui::GetItemRectMin().y), context);
   if (!ImGui::BeginPopup("##compare")) return;
+  close_popup_on_escape();
   draw_compare_popup(entries, context);
   ImGui::EndPopup();
 }

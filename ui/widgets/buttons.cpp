@@ -131,6 +131,7 @@ int draw_choice(const DrawContext& context, std::string_view id, std::string_vie
   ImGui::SetNextWindowPos(ImVec2(box.corner.x, box.end.y + look.px(2)));
   ImGui::SetNextWindowSizeConstraints(ImVec2(box.width(), 0), ImVec2(1e4F, 1e4F));
   if (ImGui::BeginPopup("##options")) {
+    close_popup_on_escape();
     for (int i = 0; i < static_cast<int>(options.size()); ++i) {
       const Option& option = options[static_cast<std::size_t>(i)];
       if (ImGui::Selectable(std::string(option.label).c_str(), i == chosen)) clicked = i;

@@ -48,7 +48,8 @@ void finish_item(const DrawContext& context, std::string_view id, const Tip& tip
   if (w <= 0 || h <= 0) return;
   context.widgets.add(id, {x, y, w, h}, tip.text);
 
-  const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !ImGui::IsMouseDown(0);
+  const bool busy = ImGui::IsMouseDown(0) || ImGui::IsItemActive();
+  const bool hovered = !busy && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
   const float since = rest_since(context, id, hovered);
   if (since < 0 || tip.text.empty()) return;
   if (context.now_s - since >= kTipDelay_s - 1e-3)
@@ -107,6 +108,10 @@ RowBox begin_row(const DrawContext& context, std::string_view label) {
 
 void end_row(const DrawContext& context, const RowBox& box) {
   ImGui::SetCursorScreenPos(ImVec2(box.left, box.end.y + context.look.px(4)));
+}
+
+void close_popup_on_escape() {
+  if (compat::is_key_pressed(ImGuiKey_Escape, false)) ImGui::CloseCurrentPopup();
 }
 
 void draw_note(const DrawContext& context, std::string_view text) {

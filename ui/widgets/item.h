@@ -59,6 +59,9 @@ RowBox begin_row(const DrawContext& context, std::string_view label);
 /// Moves the cursor to the next row.
 void end_row(const DrawContext& context, const RowBox& box);
 
+/// Within an open menu or popup: Esc closes it, which Dear ImGui does only while its own navigation is on.
+void close_popup_on_escape();
+
 /// A line of quiet text that wraps at the panel's width.
 void draw_note(const DrawContext& context, std::string_view text);
 

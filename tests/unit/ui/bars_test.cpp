@@ -127,8 +127,8 @@ TEST_F(Bars, MenusCarryOutTheirEntries) {
     frame();
     expect_tips();
     press(ImGuiKey_Escape);
-    click_at(ImVec2(900, 600));
-    frame();
+    EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) << menu;
+    move_to(ImVec2(900, 600));
   }
   click("menu.edit");
   frame();
