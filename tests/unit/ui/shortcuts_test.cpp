@@ -93,7 +93,7 @@ TEST_F(Shortcuts, KeysThatPeopleBringAreThere) {
                                                        {"V", "tool.move"},
                                                        {"H", "tool.pan"}};
   for (const auto& [keys, id] : expected) {
-    const bool found = std::ranges::any_of(entries(), [&](const Entry& entry) {
+    const bool found = std::ranges::any_of(entries(), [&keys = keys, &id = id](const Entry& entry) {
       return entry.id == id && (to_string(entry.chord) == keys || to_string(entry.other) == keys);
     });
     EXPECT_TRUE(found) << keys << " is not " << id;
