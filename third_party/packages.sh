@@ -5,6 +5,7 @@ build_tools=(c++=g++ cmake=cmake ninja=ninja-build pkg-config=pkg-config)
 build_packages=(libeigen3-dev nlohmann-json3-dev libcli11-dev libspng-dev libjpeg-dev libexif-dev libstb-dev
   libxxhash-dev libzip-dev libpugixml-dev libimgui-dev libglfw3-dev libepoxy-dev)
 test_packages=(libgtest-dev libxtst-dev libx11-dev xvfb libgl1-mesa-dri)
+sanitizer_packages=(clang libclang-rt-dev)
 
 # Prints those of the packages $@ that dpkg does not have installed.  One dpkg-query, no apt: this runs at every start.
 list_absent_packages() {

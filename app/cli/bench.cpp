@@ -14,7 +14,7 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct BenchArguments {
   std::vector<std::string> names;
   std::string cases, json;
   int runs = 5;
@@ -106,7 +106,7 @@ Json row_json(const BenchRow& row, const BenchSummary& s) {
   return json;
 }
 
-Result<Json> bench(const Options& options, const Watch& watch) {
+Result<Json> bench(const BenchArguments& options, const Watch& watch) {
   std::vector<BenchGroup> groups = all_groups();
   if (auto sound = check_names(options.names, groups); !sound) return sound.error();
   std::erase_if(groups, [&](const BenchGroup& group) { return !has_wanted_row(group, options.names); });
@@ -145,7 +145,7 @@ Result<Json> bench(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_bench(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchArguments>();
   CLI::App* sub = cli.add("bench",
                           "Measure how fast this program is: processor time, beside the goals and what a prototype "
                           "took.\nmedian, mean and worst are over the cases, of each case's median; max is the longest "

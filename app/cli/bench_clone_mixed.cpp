@@ -32,13 +32,13 @@ struct MixedShape {
 
 constexpr int kShift = 8;
 
-struct Scene {
+struct MixedScene {
   CloneSystem system;
   WarpedRegion source;
   Raster<Rgba> target;
 };
 
-Result<Scene> make_scene(const Mask& mask) {
+Result<MixedScene> make_mixed_scene(const Mask& mask) {
   const Rect box = mask.bounds();
   auto source = unwarped_region(Image(make_picture(box.right() + 8, box.bottom() + 8, 1)), mask);
   if (!source) return source.error();
@@ -48,7 +48,7 @@ Result<Scene> make_scene(const Mask& mask) {
   const Raster<Rgba8> levels = to_display(Image(make_picture(box.right() + 40, box.bottom() + 40, 2)));
   Raster<Rgba> target(levels.width(), levels.height());
   std::transform(levels.values().begin(), levels.values().end(), target.values().begin(), from_display);
-  return Scene{std::move(*system), std::move(*source), std::move(target)};
+  return MixedScene{std::move(*system), std::move(*source), std::move(target)};
 }
 
 BlendOptions with_mode(BlendMode mode) {
@@ -58,7 +58,7 @@ BlendOptions with_mode(BlendMode mode) {
 }
 
 /// By a factor up to a million pixels, else by as many cycles as float has use for.
-Result<std::vector<Float4>> solve_exactly(const PlacedPair& pair, const Scene& scene, bool is_mixed,
+Result<std::vector<Float4>> solve_exactly(const PlacedPair& pair, const MixedScene& scene, bool is_mixed,
                                           const Watch& watch) {
   const PixelGraph& graph = scene.system.graph();
   std::vector<Float4> out;
@@ -107,7 +107,7 @@ void record_errors(const std::string& name, const Correction& correction, const 
   record.add_value(name + ".mean", "", sum / static_cast<double>(exact.size()));
 }
 
-Result<void> measure_errors(const std::string& name, const Scene& scene, BlendMode mode, CloneQuality quality,
+Result<void> measure_errors(const std::string& name, const MixedScene& scene, BlendMode mode, CloneQuality quality,
                             const std::vector<Float4>& exact, const PlacedPair& pair, const Watch& watch,
                             BenchRecord& record) {
   const auto correction = solve_correction(pair, scene.system, with_mode(mode), quality, 1, watch);
@@ -117,8 +117,8 @@ Result<void> measure_errors(const std::string& name, const Scene& scene, BlendMo
 }
 
 /// From zero: what the cycles do without a membrane's help.
-Result<void> measure_cycles(const std::string& name, const Scene& scene, const PlacedPair& pair, const Watch& watch,
-                            BenchRecord& record) {
+Result<void> measure_cycles(const std::string& name, const MixedScene& scene, const PlacedPair& pair,
+                            const Watch& watch, BenchRecord& record) {
   const auto grids = MaskMultigrid::make(scene.system.mask(), 0, watch);
   if (!grids) return grids.error();
   MultigridSolve solve(*grids);
@@ -131,7 +131,7 @@ Result<void> measure_cycles(const std::string& name, const Scene& scene, const P
 }
 
 Result<void> run_mixed(const std::string& name, const Mask& mask, const BenchInput& input, BenchRecord& record) {
-  const auto scene = make_scene(mask);
+  const auto scene = make_mixed_scene(mask);
   if (!scene) return scene.error();
   const BlendOptions options = with_mode(BlendMode::kMixed);
   const auto set_up = [&] { return MaskMultigrid::make(mask, 0, input.watch); };
@@ -143,8 +143,9 @@ Result<void> run_mixed(const std::string& name, const Mask& mask, const BenchInp
   const PlacedPair still(scene->target, scene->source, kShift, kShift, options);
   const auto exact = solve_exactly(still, *scene, true, input.watch);
   if (!exact) return exact.error();
-  for (const auto& [part, quality] :
-       {std::pair{".drag", CloneQuality::kDrag}, std::pair{".rest", CloneQuality::kRest}}) {
+  for (const auto& kind : {std::pair{".drag", CloneQuality::kDrag}, std::pair{".rest", CloneQuality::kRest}}) {
+    const std::string part = kind.first;
+    const CloneQuality quality = kind.second;
     int moves = 0;
     const auto solve = [&] {
       const int shift = moves++ % 16;
@@ -165,7 +166,7 @@ Result<void> run_mixed(const std::string& name, const Mask& mask, const BenchInp
 }
 
 Result<void> run_export(const std::string& name, const Mask& mask, const BenchInput& input, BenchRecord& record) {
-  const auto scene = make_scene(mask);
+  const auto scene = make_mixed_scene(mask);
   if (!scene) return scene.error();
   int moves = 0;
   const auto solve = [&] {

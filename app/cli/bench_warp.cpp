@@ -79,7 +79,7 @@ WarpBench make_warp(double pixels, double shrink) {
   return out;
 }
 
-struct Row {
+struct WarpRow {
   std::string name;
   bool shrunk;
   WarpOptions options;
@@ -92,7 +92,9 @@ Result<void> run_size(const std::string& size, double pixels, const BenchInput& 
     const WarpBench bench = make_warp(pixels, shrunk ? kShrink : 1);
     const ImagePyramid source(bench.source);
     const std::string item = std::to_string(bench.mask.count()) + " px";
-    for (auto [name, options] : {std::pair{"bilinear", plain}, std::pair{"bicubic", cubic}}) {
+    for (const auto& sampling : {std::pair{"bilinear", plain}, std::pair{"bicubic", cubic}}) {
+      const std::string name = sampling.first;
+      WarpOptions options = sampling.second;
       if (shrunk && options.sampling == Sampling::kBicubic) continue;
       for (const Simd simd : {Simd::kBest, Simd::kBaseline}) {
         options.simd = simd;

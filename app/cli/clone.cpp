@@ -11,7 +11,7 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct CloneArguments {
   std::string source, target, mask, out, at = "0,0", mode = "import", domain = "encoded";
   double strength = 1, feather_px = 0, screening_px = 0;
   int depth = 8;
@@ -53,7 +53,7 @@ double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-Result<BlendOptions> blend_options(const Options& options) {
+Result<BlendOptions> blend_options(const CloneArguments& options) {
   BlendOptions blend;
   const auto mode = parse_blend_mode(options.mode);
   if (!mode) return mode.error();
@@ -75,7 +75,7 @@ struct Inputs {
   Mask mask;
 };
 
-Result<Inputs> read_inputs(const Options& options, const Watch& watch) {
+Result<Inputs> read_inputs(const CloneArguments& options, const Watch& watch) {
   const StageTimer timer(watch.times, "read");
   auto source = load_image(options.source);
   if (!source) return source.error();
@@ -95,7 +95,7 @@ Result<Inputs> read_inputs(const Options& options, const Watch& watch) {
   return inputs;
 }
 
-Result<Json> clone(const Options& options, const Watch& watch) {
+Result<Json> clone(const CloneArguments& options, const Watch& watch) {
   const auto shift = parse_shift(options.at);
   if (!shift) return shift.error();
   const auto blend = blend_options(options);
@@ -142,7 +142,7 @@ Result<Json> clone(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_clone(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CloneArguments>();
   CLI::App* sub =
       cli.add("clone", "Blend part of one picture into another without a seam.",
               "clone --source fish.png --target sea.jpg --mask mask.png --at 400,300 --mode mixed --out out.png");

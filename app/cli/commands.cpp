@@ -38,7 +38,7 @@ Json table_json(const std::vector<CommandInfo>& table) {
   return list;
 }
 
-std::string number(double value) {
+std::string bound_text(double value) {
   return value == std::floor(value) ? std::to_string(static_cast<long long>(value)) : Json(value).dump();
 }
 
@@ -47,9 +47,9 @@ std::string range_text(const FieldInfo& field) {
   for (const std::string_view choice : field.choices)
     text += (text.empty() ? "" : " | ") + std::string(choice);
   if (std::isfinite(field.low) && std::isfinite(field.high))
-    text += number(field.low) + "…" + number(field.high);
+    text += bound_text(field.low) + "…" + bound_text(field.high);
   else if (std::isfinite(field.low))
-    text += "≥ " + number(field.low);
+    text += "≥ " + bound_text(field.low);
   if (!field.unit.empty()) text += (text.empty() ? "" : " ") + std::string(field.unit);
   if (!field.default_value.empty()) text += (text.empty() ? "" : ", ") + std::string("default ") + field.default_value;
   return text;

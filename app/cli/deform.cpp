@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kMostAlternatives = 20;
 
-struct Options {
+struct DeformArguments {
   std::string given, out;
   /// None: not asked for.
   std::optional<int> alternatives;
   DeformOptions deform;
 };
 
-Result<std::vector<DeformedCase>> solve(const DeformCase& given, const Options& options, const Watch& watch) {
+Result<std::vector<DeformedCase>> solve(const DeformCase& given, const DeformArguments& options, const Watch& watch) {
   if (options.alternatives) return solve_case_alternatives(given, options.deform, *options.alternatives + 1, watch);
   auto solved = solve_case(given, options.deform, watch);
   if (!solved) return solved.error();
@@ -29,7 +29,7 @@ Result<std::vector<DeformedCase>> solve(const DeformCase& given, const Options& 
   return one;
 }
 
-Result<Json> deform(const Options& options, const Watch& watch) {
+Result<Json> deform(const DeformArguments& options, const Watch& watch) {
   const auto given = read_case(options.given);
   if (!given) return given.error();
   const auto solved = solve(*given, options, watch);
@@ -45,7 +45,7 @@ Result<Json> deform(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_deform(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DeformArguments>();
   CLI::App* sub = cli.add("deform", "Deform one outline to one sketch, without pictures.",
                           "deform fish.json --out result.json --cell 8");
   sub->add_option("case", options->given, "{\"outline\", \"sketch\", \"truth\"?, \"pins\"?}")

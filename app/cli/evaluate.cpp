@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct EvaluateArguments {
   std::vector<std::string> given;
   DeformOptions deform;
 };
@@ -40,8 +40,8 @@ Result<std::vector<fs::path>> list_cases(const std::vector<std::string>& given) 
   return files;
 }
 
-/// q-th quantile, linear between ranks.
-double quantile(std::vector<double> values, double q) {
+/// q-th rank_value, linear between ranks.
+double rank_value(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   const double rank = q * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(rank), above = std::min(below + 1, values.size() - 1);
@@ -64,9 +64,9 @@ Json statistics_of(const std::vector<Json>& objects) {
   for (const auto& [key, values] : columns) {
     const double sum = std::accumulate(values.begin(), values.end(), 0.0);
     statistics[key] = {{"mean", sum / static_cast<double>(values.size())},
-                       {"median", quantile(values, 0.5)},
-                       {"p95", quantile(values, 0.95)},
-                       {"max", quantile(values, 1)},
+                       {"median", rank_value(values, 0.5)},
+                       {"p95", rank_value(values, 0.95)},
+                       {"max", rank_value(values, 1)},
                        {"sum", sum}};
   }
   return statistics;
@@ -93,7 +93,7 @@ void print_row(const std::string& name, const Metrics& m) {
               m.iterations, m.order_violations, m.cpu_ms);
 }
 
-Result<Json> evaluate(const Options& options, const Watch& watch) {
+Result<Json> evaluate(const EvaluateArguments& options, const Watch& watch) {
   const auto files = list_cases(options.given);
   if (!files) return files.error();
   std::printf("%-20s %6s %8s %8s %9s %9s %9s %8s %7s %7s %6s %8s\n", "case", "flips", "σ1/σ2", "worst", "area",
@@ -126,7 +126,7 @@ Result<Json> evaluate(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_evaluate(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EvaluateArguments>();
   CLI::App* sub = cli.add("evaluate", "Deform many cases and measure the distortion; a table on stdout.",
                           "evaluate cases --report report.json --method paper --cell 10");
   sub->add_option("cases", options->given, "case files, or folders of them")->required()->type_name("DIR_OR_FILES");

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FiguresArguments {
   std::vector<std::string> figures, cases;
   std::string out, folder;
 };
@@ -29,7 +29,7 @@ const std::vector<std::pair<std::string, std::vector<DrawFigure>>> figure_table(
       {"compare", {draw_compare}}, {"paper", {draw_paper, write_paper_table}}, {"alternatives", {draw_alternatives}}};
 }
 
-Result<FigureInput> prepare(const Options& options, const Watch& watch) {
+Result<FigureInput> prepare(const FiguresArguments& options, const Watch& watch) {
   const auto assets = find_assets();
   if (!assets) return assets.error();
   auto lettering = Lettering::load(*assets);
@@ -42,7 +42,7 @@ Result<FigureInput> prepare(const Options& options, const Watch& watch) {
                      options.cases,         &watch};
 }
 
-Result<Json> draw(const Options& options, const Watch& watch) {
+Result<Json> draw(const FiguresArguments& options, const Watch& watch) {
   const auto input = prepare(options, watch);
   if (!input) return input.error();
   Json report;
@@ -140,7 +140,7 @@ Result<std::string> save_page(const FigureInput& input, Page page, const std::st
 }
 
 void add_figures(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FiguresArguments>();
   CLI::App* sub = cli.add("figures", "Draw the method's pictures, the paper's own and its table from sample material.",
                           "figures compare --out pictures");
   std::vector<std::string> names;

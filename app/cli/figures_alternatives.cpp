@@ -9,29 +9,29 @@
 namespace oversketch::cli {
 namespace {
 
-constexpr int kColumns = 4, kColumnWidth = 400, kGap = 36;
-constexpr double kMostHeight = 290, kMostWidth = kColumnWidth - 40;
-constexpr int kRowHead = 96, kRowFoot = 36;
+constexpr int kAlternativesColumns = 4, kAlternativesColumnWidth = 400, kAlternativesGap = 36;
+constexpr double kAlternativesMostHeight = 290, kAlternativesMostWidth = kAlternativesColumnWidth - 40;
+constexpr int kAlternativesRowHead = 96, kAlternativesRowFoot = 36;
 /// A runner-up is a close call up to this cost: the best one's times and plus so much.
 constexpr double kCloseFactor = 1.25, kCloseCost = 0.02;
 
-double column_middle(int column) {
-  return kMargin + column * (kColumnWidth + kGap) + 0.5 * kColumnWidth;
+double alternatives_middle(int column) {
+  return kMargin + column * (kAlternativesColumnWidth + kAlternativesGap) + 0.5 * kAlternativesColumnWidth;
 }
 
-struct Row {
+struct AlternativesRow {
   FigureCase shown;
   std::vector<DeformedCase> solved;
   double scale = 1;
   int height = 0;
 };
 
-Result<Row> make_row(const FigureInput& input, const std::string& name) {
+Result<AlternativesRow> make_alternatives_row(const FigureInput& input, const std::string& name) {
   auto shown = read_figure_case(input, name);
   if (!shown) return shown.error();
   DeformOptions options;
   options.cell_px = kFigureCell;
-  auto solved = solve_case_alternatives(shown->given, options, kColumns - 1, *input.watch);
+  auto solved = solve_case_alternatives(shown->given, options, kAlternativesColumns - 1, *input.watch);
   if (!solved) return at(name, solved.error());
   const double best = solved->front().metrics.match_cost.value_or(0);
   std::erase_if(*solved, [&](const DeformedCase& one) {
@@ -39,9 +39,9 @@ Result<Row> make_row(const FigureInput& input, const std::string& name) {
   });
   const Point source = bounds(shown->outline.points()).size(), target = bounds(shown->sketch.points()).size();
   const Point size{std::max(source.x, target.x), std::max(source.y, target.y)};
-  const double scale = std::min(kMostWidth / size.x, kMostHeight / size.y);
-  const int height = kRowHead + static_cast<int>(std::lround(scale * size.y)) + kRowFoot;
-  return Row{std::move(*shown), std::move(*solved), scale, height};
+  const double scale = std::min(kAlternativesMostWidth / size.x, kAlternativesMostHeight / size.y);
+  const int height = kAlternativesRowHead + static_cast<int>(std::lround(scale * size.y)) + kAlternativesRowFoot;
+  return AlternativesRow{std::move(*shown), std::move(*solved), scale, height};
 }
 
 /// Degrees, clockwise on the screen, of the similarity that takes `from` nearest to `to`; −180…180.
@@ -62,11 +62,11 @@ void draw_dots(Page& page, const FigureCase& shown, const Points& moved, const V
     draw_dot(page, view(follow_outline(shown, moved, static_cast<double>(k) / kDots)), k);
 }
 
-Result<void> draw_row(Page& page, const Row& row, double top, const Watch& watch) {
-  const double middle = top + kRowHead + 0.5 * (row.height - kRowHead - kRowFoot);
+Result<void> draw_alternatives_row(Page& page, const AlternativesRow& row, double top, const Watch& watch) {
+  const double middle = top + kAlternativesRowHead + 0.5 * (row.height - kAlternativesRowHead - kAlternativesRowFoot);
   const Points& outline = row.shown.given.outline;
-  const View source_view = centred(bounds(outline), row.scale, {column_middle(0), middle}, row.shown.upwards);
-  page.write({{row.shown.given.name, kInkColor, true}}, kTextSize, {column_middle(0), top + 40}, Align::kCentre);
+  const View source_view = centred(bounds(outline), row.scale, {alternatives_middle(0), middle}, row.shown.upwards);
+  page.write({{row.shown.given.name, kInkColor, true}}, kTextSize, {alternatives_middle(0), top + 40}, Align::kCentre);
   auto drawn =
       draw_checked(page, source_region(row.shown, row.solved.front().deformation), source_view, 2 * kFigureCell, watch);
   if (!drawn) return drawn;
@@ -75,7 +75,7 @@ Result<void> draw_row(Page& page, const Row& row, double top, const Watch& watch
 
   for (int i = 0; i < static_cast<int>(row.solved.size()); ++i) {
     const DeformedCase& solved = row.solved[static_cast<std::size_t>(i)];
-    const double x = column_middle(i + 1);
+    const double x = alternatives_middle(i + 1);
     const View view = centred(bounds(row.shown.sketch.points()), row.scale, {x, middle}, row.shown.upwards);
     drawn = draw_checked(page, deformed_region(row.shown, solved.deformation), view, 2 * kFigureCell, watch);
     if (!drawn) return drawn;
@@ -96,23 +96,23 @@ Result<void> draw_row(Page& page, const Row& row, double top, const Watch& watch
 Result<Json> draw_alternatives(const FigureInput& input) {
   std::vector<std::string> names = input.names;
   if (names.empty()) names = {"ell90", "bar2S", "star2blob"};
-  std::vector<Row> rows;
+  std::vector<AlternativesRow> rows;
   int height = kHeadHeight + kMargin / 2, columns = 0;
   for (const std::string& name : names) {
-    auto row = make_row(input, name);
+    auto row = make_alternatives_row(input, name);
     if (!row) return row.error();
     height += row->height;
     columns = std::max(columns, 1 + static_cast<int>(row->solved.size()));
     rows.push_back(std::move(*row));
   }
-  const int width = 2 * kMargin + columns * kColumnWidth + (columns - 1) * kGap;
+  const int width = 2 * kMargin + columns * kAlternativesColumnWidth + (columns - 1) * kAlternativesGap;
   Page page(width, height, input.lettering);
   page.head("Where a sketch can be taken in several ways",
             "The best match of the curves, and the runners-up to choose from");
   double top = kHeadHeight;
-  for (const Row& row : rows) {
+  for (const AlternativesRow& row : rows) {
     page.rule(top);
-    const auto drawn = draw_row(page, row, top, *input.watch);
+    const auto drawn = draw_alternatives_row(page, row, top, *input.watch);
     if (!drawn) return at(row.shown.given.name, drawn.error());
     top += row.height;
   }

@@ -11,9 +11,9 @@
 namespace oversketch::cli {
 namespace {
 
-constexpr int kPanels = 3, kPanelWidth = 660, kGap = 40;
-constexpr int kPageWidth = 2 * kMargin + kPanels * kPanelWidth + (kPanels - 1) * kGap;
-constexpr double kMostWidth = kPanelWidth - 60, kMostHeight = 560;
+constexpr int kPanels = 3, kPanelWidth = 660, kPaperGap = 40;
+constexpr int kPaperPageWidth = 2 * kMargin + kPanels * kPanelWidth + (kPanels - 1) * kPaperGap;
+constexpr double kPaperMostWidth = kPanelWidth - 60, kPaperMostHeight = 560;
 constexpr int kPanelHead = 100, kPanelFoot = 64;
 /// Steps after which descent has come to rest on the sample.
 constexpr int kManySteps = 5000;
@@ -27,7 +27,7 @@ struct Strip {
   double scale;
   double middle_y;
 
-  Point middle(int panel) const { return {kMargin + panel * (kPanelWidth + kGap) + 0.5 * kPanelWidth, middle_y}; }
+  Point middle(int panel) const { return {kMargin + panel * (kPanelWidth + kPaperGap) + 0.5 * kPanelWidth, middle_y}; }
   void head(int panel, const std::string& name, std::initializer_list<Words> more) {
     const double x = middle(panel).x;
     page.write({{name, kInkColor, true}}, kHeadSize, {x, kHeadHeight + 34.0}, Align::kCentre);
@@ -36,9 +36,9 @@ struct Strip {
 };
 
 Strip make_strip(const FigureInput& input, const Point& size, const std::string& title, const std::string& subtitle) {
-  const double scale = std::min(kMostWidth / size.x, kMostHeight / size.y);
+  const double scale = std::min(kPaperMostWidth / size.x, kPaperMostHeight / size.y);
   const int content = static_cast<int>(std::lround(scale * size.y));
-  Strip strip{Page(kPageWidth, kHeadHeight + kPanelHead + content + kPanelFoot, input.lettering), scale,
+  Strip strip{Page(kPaperPageWidth, kHeadHeight + kPanelHead + content + kPanelFoot, input.lettering), scale,
               kHeadHeight + kPanelHead + 0.5 * content};
   strip.page.head(title, subtitle);
   strip.page.rule(kHeadHeight - 12);
@@ -108,7 +108,7 @@ Result<std::string> draw_meshes(const FigureInput& input) {
                            "The paper's method; the source is shown larger than it is");
   const auto& mesh = *runs->front().mesh;
   const Box source = bounds(mesh.vertices);
-  const double source_scale = std::min(kMostWidth / source.size().x, strip.scale * box.size().y / source.size().y);
+  const double source_scale = std::min(kPaperMostWidth / source.size().x, strip.scale * box.size().y / source.size().y);
   for (int i = 0; i < kPanels; ++i) {
     const PaperRun& run = (*runs)[i == 2 ? 1 : 0];
     RegionPicture region = deformed_region(shown, run);

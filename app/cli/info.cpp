@@ -11,7 +11,7 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct InfoArguments {
   std::string project;
   bool json = false;
 };
@@ -110,7 +110,7 @@ void print(const std::string& path, const Json& json) {
 } // namespace
 
 void add_info(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoArguments>();
   CLI::App* sub = cli.add("info", "Say what is in a project.", "info work.ora --json");
   sub->add_option("project", options->project, "the project")->required()->type_name("PROJECT.ora");
   sub->add_flag("--json", options->json, "as JSON");

@@ -12,7 +12,7 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct RenderArguments {
   std::string source, out;
   int depth = 8;
 };
@@ -41,7 +41,7 @@ Result<Session> replay(const std::string& path, const Watch& watch) {
   return session;
 }
 
-Result<Json> render(const Options& options, const Watch& watch) {
+Result<Json> render(const RenderArguments& options, const Watch& watch) {
   const bool is_project = std::filesystem::path(options.source).extension() == ".ora";
   auto session = is_project ? open_project(options.source, watch) : replay(options.source, watch);
   if (!session) return session.error();
@@ -59,7 +59,7 @@ Result<Json> render(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_render(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderArguments>();
   CLI::App* sub = cli.add("render", "Write the picture of a project, or of a script's last state.",
                           "render work.ora --out picture.png --depth 16");
   sub->add_option("project", options->source, "the project, or a script (JSON Lines)")

@@ -8,11 +8,11 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string script, out;
 };
 
-Result<Json> run(const Options& options, const Watch& watch) {
+Result<Json> run(const RunArguments& options, const Watch& watch) {
   const std::filesystem::path script(options.script);
   const std::filesystem::path folder = script.has_parent_path() ? script.parent_path() : std::filesystem::path(".");
   Session session;
@@ -30,7 +30,7 @@ Result<Json> run(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_run(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   CLI::App* sub = cli.add("run", "Replay a script; its exports land in the output folder.",
                           "run assets/samples/puffer.jsonl --out out");
   sub->add_option("script", options->script, "the script, JSON Lines")->required()->type_name("SCRIPT.jsonl");

@@ -13,7 +13,7 @@
 namespace oversketch::cli {
 namespace {
 
-struct Options {
+struct WarpArguments {
   std::string image, outline, sketch, out;
   int depth = 8;
   DeformOptions deform;
@@ -38,7 +38,7 @@ Result<Rect> canvas_for(const Image& image, const Points& sketch) {
   return Rect{0, 0, static_cast<int>(width), static_cast<int>(height)};
 }
 
-Result<Json> warp(const Options& options, const Watch& watch) {
+Result<Json> warp(const WarpArguments& options, const Watch& watch) {
   if (std::filesystem::path(options.out).has_extension() && !keeps_alpha(options.out))
     return Error{"image.no-alpha", "the region is transparent outside, which only PNG can hold: end the name in .png",
                  options.out};
@@ -83,7 +83,7 @@ Result<Json> warp(const Options& options, const Watch& watch) {
 } // namespace
 
 void add_warp(Cli& cli) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WarpArguments>();
   CLI::App* sub = cli.add("warp", "Deform part of a picture and write it alone, transparent outside.",
                           "warp --image fish.png --outline outline.json --sketch sketch.json --out bent.png");
   sub->add_option("--image", options->image, "the picture")->required()->type_name("I");

@@ -151,6 +151,7 @@ float GridRows::largest_residual(int row) {
   float largest = 0;
   for (const GridPiece& piece : pieces(row)) {
     const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(level_.coarse_colour())];
+    if (cells.count == 0) continue;
     const float* const at = r + at_slot(cells.at - level_.first_in(row));
     for (std::size_t i = 0; i < at_slot(cells.count); ++i)
       largest = std::max(largest, std::abs(at[i]));

@@ -10,7 +10,7 @@ namespace oversketch {
 namespace {
 
 /// How near the pointer must be to a corner; how far a press may wander and still be a click.  Design px.
-constexpr double kOnCorner = 9, kClick = 3;
+constexpr double kOnFrameCorner = 9, kMoveClick = 3;
 constexpr double kTurnStep_deg = 15, kScaleStep = 0.05;
 /// Further than any command takes a layer.
 constexpr double kFurthest = 1 << 22;
@@ -88,7 +88,7 @@ void MoveTool::handle(const ToolEvent& event, const ToolContext& context, Action
     pointer_ = e.position;
     pointer_side_ = event.side;
     if (drag_ == Drag::kNone) return;
-    dragged_ = dragged_ || distance(pointer_, from_) > context.picture_px(kClick, Side::kTarget);
+    dragged_ = dragged_ || distance(pointer_, from_) > context.picture_px(kMoveClick, Side::kTarget);
     stale_ = dragged_;
     if (e.kind == InputEvent::Kind::kRelease && e.button == MouseButton::kLeft) {
       if (stale_) preview_drag(context, sink);
@@ -204,7 +204,7 @@ MoveTool::Grip MoveTool::grip_at(Point at, const ToolContext& context) const {
   if (frame) {
     const Point centre = 0.5 * ((*frame)[0] + (*frame)[2]);
     for (const Point corner : *frame)
-      if (distance(at, corner) <= context.picture_px(kOnCorner, Side::kTarget))
+      if (distance(at, corner) <= context.picture_px(kOnFrameCorner, Side::kTarget))
         return {Drag::kScale, std::nullopt, corner - centre};
     if (contains(selected->sketch_in_target(), at)) return {Drag::kMove, std::nullopt, {}};
   }

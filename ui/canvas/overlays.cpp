@@ -17,10 +17,6 @@ constexpr double kDotSpacing = 12;
 /// How many times their length gradients are drawn.
 constexpr double kGradientScale = 10;
 
-Points curve_of(const Layer& layer, Side side) {
-  return side == Side::kSource ? layer.outline : layer.sketch_in_target();
-}
-
 /// A mesh ready to be drawn on that side.
 void prepare(const CanvasPaint& paint, Side side, const Layer& layer, const std::shared_ptr<const QuadMesh>& mesh,
              const std::shared_ptr<const Points>& positions, MeshCache& cache) {
@@ -94,7 +90,7 @@ void draw_gradients(const CanvasPaint& paint, const OverlayScene& scene) {
 }
 
 void draw_correspondence(const CanvasPaint& paint, Side side, const OverlayScene& scene) {
-  const double length = perimeter(curve_of(scene.layer, side)) * paint.view.zoom / paint.look.scale;
+  const double length = perimeter(curve_on(scene.layer, side)) * paint.view.zoom / paint.look.scale;
   int count = kFewestDots;
   while (2 * count <= kMostDots && length / (2 * count) >= kDotSpacing)
     count *= 2;
@@ -142,7 +138,7 @@ void draw_overlays(const CanvasPaint& paint, Side side, const OverlayScene& scen
   if (!shown.shown || scene.layer.outline.empty()) return;
   const bool derived = scene.derived != nullptr && scene.derived->deformation != nullptr;
   if (derived) draw_meshes(paint, side, scene, cache);
-  if (shown.curves) paint.haloed_line(curve_of(scene.layer, side), true, paint.look.curve, 1.5f);
+  if (shown.curves) paint.haloed_line(curve_on(scene.layer, side), true, paint.look.curve, 1.5f);
   if (derived && shown.correspondence) draw_correspondence(paint, side, scene);
   if (derived && shown.handles) draw_handles(paint, side, scene);
   if (derived && shown.gradients && side == Side::kTarget) draw_gradients(paint, scene);

@@ -8,13 +8,9 @@ namespace oversketch {
 namespace {
 
 /// How near the pointer must be to a pin's end; how far a press may wander and still be a click.  Design px.
-constexpr double kOnPin = 10, kClick = 3;
+constexpr double kOnPin = 10, kPinClick = 3;
 /// How near to a curve a click must be to mean it, in tolerances.
 constexpr double kReach = 3;
-
-Points curve_of(const Layer& layer, Side side) {
-  return side == Side::kSource ? layer.outline : layer.sketch_in_target();
-}
 
 Point end_of(const Layer& layer, const Pin& pin, Side side) {
   return side == Side::kSource ? pin.outline : layer.placement.to_target()(pin.sketch);
@@ -101,7 +97,7 @@ void PinTool::set_end(const End& end, const ToolContext& context, ActionSink& si
 
 void PinTool::move(const ToolContext& context, ActionSink& sink) {
   if (!drag_) return;
-  drag_->moved = drag_->moved || distance(pointer_, drag_->from) > context.picture_px(kClick, drag_->side);
+  drag_->moved = drag_->moved || distance(pointer_, drag_->from) > context.picture_px(kPinClick, drag_->side);
   if (!drag_->moved) return;
   PinMove command{gesture_.base(context.snapshot).selected, drag_->pin, {}, {}};
   (drag_->side == Side::kSource ? command.outline : command.sketch) = pointer_;
@@ -145,7 +141,7 @@ std::optional<PinTool::Hit> PinTool::hit(const Layer& layer, Side side, Point at
 
 std::optional<PinTool::End> PinTool::nearest_end(const Layer& layer, Side side, Point at,
                                                  const ToolContext& context) const {
-  const auto look = [&](Side on) { return ClosedCurve(curve_of(layer, on)).nearest(at); };
+  const auto look = [&](Side on) { return ClosedCurve(curve_on(layer, on)).nearest(at); };
   Side on = side;
   if (context.one_canvas && half_) on = other(half_->side);
   if (context.one_canvas && !half_)

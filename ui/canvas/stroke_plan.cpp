@@ -11,13 +11,8 @@ namespace {
 
 constexpr double kClosingReach = 3, kClosingShare = 0.1;
 
-/// The layer's curve on that side, in its picture's pixels.
-Points curve_of(const Layer& layer, Side side) {
-  return side == Side::kSource ? layer.outline : layer.sketch_in_target();
-}
-
 Result<OversketchResult> redraw_part(const Layer& layer, const Points& stroke, const StrokeAsk& ask, double tolerance) {
-  const ClosedCurve curve(curve_of(layer, ask.side));
+  const ClosedCurve curve(curve_on(layer, ask.side));
   const Similarity placed = layer.placement.to_target();
   std::vector<double> pin_s;
   for (const Pin& pin : layer.pins)
@@ -126,7 +121,7 @@ StrokePlan plan_stroke(const Layer& layer, const Points& stroke, const StrokeAsk
     plan.why_not = "Outline the part in the source picture first";
     return plan;
   }
-  if (curve_of(layer, ask.side).empty()) {
+  if (curve_on(layer, ask.side).empty()) {
     StrokeAsk first = ask;
     first.close = true;
     return plan_closed(layer, stroke, first);
@@ -151,7 +146,7 @@ StrokePlan plan_stroke(const Layer& layer, const Points& stroke, const StrokeAsk
 }
 
 Points forecast_ghost(const Layer& layer, const Points& stroke, const StrokeAsk& ask) {
-  const Points points = curve_of(layer, ask.side);
+  const Points points = curve_on(layer, ask.side);
   if (points.empty() || stroke.size() < 2) return {};
   const ClosedCurve curve(points);
   const CurvePosition first = curve.nearest(stroke.front()), last = curve.nearest(stroke.back());

@@ -8,7 +8,7 @@
 namespace oversketch {
 namespace {
 
-constexpr std::size_t kMostRecent = 6;
+constexpr std::size_t kMostRecentShown = 6;
 
 void draw_heading(const DrawContext& context, std::string_view text) {
   const FontScope bold(context.look.bold);
@@ -49,7 +49,7 @@ void draw_recent(const EmptyStateModel& model, float width, const DrawContext& c
   if (model.recent.empty()) return;
   draw_heading(context, "Recent");
   const ThemeLook& look = context.look;
-  for (std::size_t i = 0; i < std::min(model.recent.size(), kMostRecent); ++i) {
+  for (std::size_t i = 0; i < std::min(model.recent.size(), kMostRecentShown); ++i) {
     const std::string id = "empty.recent." + std::to_string(i);
     const IdScope scope(id);
     const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + look.px(26));
@@ -77,7 +77,7 @@ void draw_empty_state(const EmptyStateModel& model, const Area& area, const Draw
   const ThemeLook& look = context.look;
   const float width = std::min(look.px(460), area.width() - look.px(32));
   if (width < look.px(60)) return;
-  const auto recent = static_cast<float>(std::min(model.recent.size(), kMostRecent));
+  const auto recent = static_cast<float>(std::min(model.recent.size(), kMostRecentShown));
   const auto recovered = static_cast<float>(model.recovered.size());
   const float height = look.px(210 + (recent > 0 ? 40 + 27 * recent : 0) + (recovered > 0 ? 50 + 32 * recovered : 0));
   const float x = area.low.x + (area.width() - width) / 2;

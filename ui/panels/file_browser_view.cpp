@@ -16,7 +16,7 @@ namespace {
 
 using For = FileRequest::For;
 
-constexpr float kRow = 26, kPlaces = 130, kPreview = 210;
+constexpr float kFileRow = 26, kPlaces = 130, kPreview = 210;
 
 const char* title_of(For purpose) {
   switch (purpose) {
@@ -110,7 +110,7 @@ void draw_places(FileBrowser& browser, ImVec2 size, const DrawContext& context) 
   ImGui::BeginChild("##places", size);
   for (const Place& place : browser.places()) {
     const IdScope scope(place.id);
-    const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + size.x - look.px(8), at.y + look.px(kRow));
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + size.x - look.px(8), at.y + look.px(kFileRow));
     if (ImGui::InvisibleButton("##place", ImVec2(end.x - at.x, end.y - at.y))) {
       if (place.path.empty())
         browser.go_to_recent();
@@ -176,7 +176,7 @@ void draw_file(FileBrowser& browser, int index, float width, const DrawContext& 
   const FileRow row = browser.rows()[static_cast<std::size_t>(index)];
   const std::string id = "browser.row." + std::to_string(index);
   const IdScope scope(id);
-  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + look.px(kRow));
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + look.px(kFileRow));
   const bool clicked = ImGui::InvisibleButton("##file", ImVec2(width, end.y - at.y));
   const bool hovered = ImGui::IsItemHovered(), twice = hovered && ImGui::IsMouseDoubleClicked(0);
   finish_item(context, id, {row.path.string(), "Double-click opens"});
@@ -211,7 +211,7 @@ void draw_list(FileBrowser& browser, ImVec2 size, const DrawContext& context) {
   ImGui::BeginChild("##list", size);
   const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x - look.px(4));
   draw_header(browser, width, context);
-  const float row = look.px(kRow), left = ImGui::GetWindowHeight() - look.px(24);
+  const float row = look.px(kFileRow), left = ImGui::GetWindowHeight() - look.px(24);
   ImGui::BeginChild("##rows", ImVec2(0, std::max(1.0F, left)));
   const float inner = std::max(1.0F, ImGui::GetContentRegionAvail().x - look.px(4));
   const auto count = static_cast<int>(browser.rows().size());

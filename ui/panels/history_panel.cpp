@@ -10,14 +10,14 @@ namespace {
 
 /// So many steps are seen at once, as many as there is room for in the panel; the list scrolls beyond.
 constexpr float kLeastRows = 5, kMostRows = 30;
-constexpr float kRow = 24;
+constexpr float kHistoryRow = 24;
 
 void draw_step(const HistoryModel& model, std::size_t index, const DrawContext& context) {
   const ThemeLook& look = context.look;
   const std::string id = "history." + std::to_string(index);
   const IdScope scope(id);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kRow));
+  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kHistoryRow));
   const bool present = index == model.cursor, undone = index > model.cursor;
   if (ImGui::InvisibleButton("##step", ImVec2(end.x - at.x, end.y - at.y)) && !present)
     context.sink.emit(action::Jump{index});
@@ -46,7 +46,7 @@ void draw_history_panel(const HistoryModel& model, HistoryPanelState& state, con
   const Section section(context, "panel.history", "History", summary,
                         "Every step since the document was opened. Click one to go there.");
   if (!section.open() || model.labels.empty()) return;
-  const float row = context.look.px(kRow);
+  const float row = context.look.px(kHistoryRow);
   const float room = (ImGui::GetContentRegionAvail().y - context.look.px(22)) / row;
   const float rows = std::min(static_cast<float>(model.labels.size()), std::clamp(room, kLeastRows, kMostRows));
   ImGui::BeginChild("##steps", ImVec2(0, std::floor(row * rows)));

@@ -13,7 +13,7 @@
 namespace oversketch {
 namespace {
 
-constexpr float kRow = 46, kThumbnailWidth = 46, kThumbnailHeight = 34;
+constexpr float kLayerRow = 46, kThumbnailWidth = 46, kThumbnailHeight = 34;
 constexpr int kThumbnail_px = 96;
 
 void draw_row_ground(ImVec2 at, ImVec2 end, bool selected, bool hovered, const DrawContext& context) {
@@ -47,7 +47,7 @@ void end_renaming(const LayerRow& row, LayersPanelState& state, WindowFlags& fla
 
 void draw_name_field(const LayerRow& row, LayersPanelState& state, WindowFlags& flags, ImVec2 at, float width,
                      const DrawContext& context) {
-  ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + (context.look.px(kRow) - ImGui::GetFrameHeight()) / 2));
+  ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + (context.look.px(kLayerRow) - ImGui::GetFrameHeight()) / 2));
   ImGui::SetNextItemWidth(width);
   if (flags.rename_starts) {
     state.name = row.name;
@@ -70,7 +70,7 @@ void draw_row(const LayerRow& row, LayersPanelState& state, const EntryContext& 
   const std::string id = "layer." + to_string(row.id);
   const IdScope scope(id);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kRow));
+  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kLayerRow));
   const bool renaming = entries.flags.renaming == row.id;
   const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(at, end);
   draw_row_ground(at, end, row.selected, over, context);
@@ -120,7 +120,7 @@ void draw_target_row(const LayersModel& model, LayersPanelState& state, Pictures
     state.target_content = model.target.content;
   }
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kRow));
+  const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(kLayerRow));
   if (ImGui::InvisibleButton("##target", ImVec2(end.x - at.x, end.y - at.y))) {
   }
   finish_item(context, "layer.target", {"The picture that everything goes into: " + model.target_name, {}});
@@ -137,9 +137,9 @@ void follow_row_drag(const LayersModel& model, LayersPanelState& state, float to
   if (!state.dragged) return;
   const ThemeLook& look = context.look;
   const auto rows = static_cast<int>(model.rows.size());
-  const float place = std::round((ImGui::GetIO().MousePos.y - top) / look.px(kRow));
+  const float place = std::round((ImGui::GetIO().MousePos.y - top) / look.px(kLayerRow));
   const int to = std::clamp(static_cast<int>(place), 0, rows);
-  const ImVec2 at(ImGui::GetCursorScreenPos().x, top + look.px(kRow) * static_cast<float>(to));
+  const ImVec2 at(ImGui::GetCursorScreenPos().x, top + look.px(kLayerRow) * static_cast<float>(to));
   ImGui::GetWindowDrawList()->AddRectFilled(
       ImVec2(at.x, at.y - look.px(1)), ImVec2(at.x + ImGui::GetContentRegionAvail().x, at.y + look.px(1)), look.accent);
   if (ImGui::IsMouseDown(0)) return;

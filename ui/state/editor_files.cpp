@@ -26,7 +26,7 @@ bool is_untouched(const Tab& tab) {
   return snapshot->document.empty() && !tab.session->activity().busy && tab.path.empty();
 }
 
-bool is_there(const fs::path& path) {
+bool is_on_disk(const fs::path& path) {
   std::error_code failure;
   return fs::exists(path, failure);
 }
@@ -141,7 +141,7 @@ void Editor::set_target(const fs::path& path) {
 }
 
 bool Editor::ask_to_replace(const fs::path& path, Action again) {
-  if (!is_there(path)) return false;
+  if (!is_on_disk(path)) return false;
   Question question;
   question.title = "Replace " + path.filename().string() + "?";
   question.text = "A file of that name is there already. Its contents will be lost.";

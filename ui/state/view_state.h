@@ -13,6 +13,11 @@ enum class Tool { kOutline, kSketch, kPin, kMove, kPan };
 /// Which canvas: the picture that a region is taken from, or the one it goes into.
 enum class Side { kSource, kTarget };
 
+/// The layer's curve on that side, in the pixels of that side's picture.
+inline Points curve_on(const Layer& layer, Side side) {
+  return side == Side::kSource ? layer.outline : layer.sketch_in_target();
+}
+
 /// What is drawn over the pictures.
 struct Overlays {
   /// All of them off at once, without forgetting which were on.

@@ -15,7 +15,7 @@ constexpr BlendMode kModes[] = {BlendMode::kImport, BlendMode::kMixed, BlendMode
                                 BlendMode::kNone};
 
 /// Slopes, waves and a little grain, 8 bits.
-Raster<Rgba8> photograph(int width, int height, unsigned seed) {
+Raster<Rgba8> noise_levels(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> grain(-6, 6);
   const float wave = 0.02F + 0.01F * static_cast<float>(seed % 5);
@@ -41,7 +41,7 @@ Raster<Rgba> in_float(const Raster<Rgba8>& picture) {
 WarpedRegion source_for(const Mask& mask, unsigned seed) {
   const Rect rect = grown(mask.bounds(), 1);
   WarpedRegion out{rect, Raster<Rgba>(rect.width, rect.height)};
-  const Raster<Rgba8> levels = photograph(rect.width, rect.height, seed);
+  const Raster<Rgba8> levels = noise_levels(rect.width, rect.height, seed);
   const auto value = [](int level, int more) { return static_cast<float>(64 * level + more) / (64 * 255); };
   for (std::size_t i = 0; i < levels.values().size(); ++i) {
     const Rgba8& p = levels.values()[i];
@@ -95,7 +95,7 @@ TEST(Live, RefusesWhatCannotBePaintedAndLeavesThePictureAlone) {
     EXPECT_EQ(LiveRegion::make(broken, parts.system).error().where,
               "source pixel " + std::to_string(x) + ", " + std::to_string(y));
   }
-  const Raster<Rgba8> below = photograph(40, 40, 2);
+  const Raster<Rgba8> below = noise_levels(40, 40, 2);
   Raster<Rgba8> out = below;
   BlendOptions bad;
   bad.opacity = -1;
@@ -119,7 +119,7 @@ TEST(Live, RefusesWhatCannotBePaintedAndLeavesThePictureAlone) {
 }
 
 TEST(Live, IsTheBlendOfPicturesRoundedWithAnyOptions) {
-  const Raster<Rgba8> below = photograph(90, 80, 3);
+  const Raster<Rgba8> below = noise_levels(90, 80, 3);
   Raster<Rgba8> glassy = below;
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 90; ++x)
@@ -161,7 +161,7 @@ TEST(Live, IsTheBlendOfPicturesRoundedWithAnyOptions) {
 }
 
 TEST(Live, WritesThePixelsOfTheMaskAndNoOthersOverEveryEdge) {
-  const Raster<Rgba8> below = photograph(50, 44, 5);
+  const Raster<Rgba8> below = noise_levels(50, 44, 5);
   for (const Mask& mask : {disc_mask(20, 20, 17), random_mask({0, 0, 30, 30}, 0.8, 6), rect_mask({0, 0, 50, 44})}) {
     WarpedRegion source = source_for(mask, 7);
     for (Rgba& p : source.pixels.values())
@@ -184,7 +184,7 @@ TEST(Live, WritesThePixelsOfTheMaskAndNoOthersOverEveryEdge) {
 TEST(Live, WhollyOutsideNothingIsPaintedOrPrepared) {
   const Mask mask = rect_mask({0, 0, 3000, 3000});
   const Parts parts = parts_for(mask, {grown(mask.bounds(), 1), Raster<Rgba>(3002, 3002)});
-  const Raster<Rgba8> below = photograph(10, 10, 8);
+  const Raster<Rgba8> below = noise_levels(10, 10, 8);
   const int far = std::numeric_limits<int>::max(), low = std::numeric_limits<int>::min();
   for (const auto& [dx, dy] : {std::pair{10, 0}, std::pair{-3000, 0}, std::pair{far, far}, std::pair{low, far}})
     for (const BlendMode mode : kModes) {
@@ -201,7 +201,7 @@ TEST(Live, WhollyOutsideNothingIsPaintedOrPrepared) {
 }
 
 TEST(Live, OntoItselfIsItselfToTheBit) {
-  const Raster<Rgba8> picture = photograph(70, 60, 9);
+  const Raster<Rgba8> picture = noise_levels(70, 60, 9);
   for (const Mask& mask : {disc_mask(30, 30, 22), rect_mask({0, 0, 70, 60}), random_mask({5, 5, 50, 50}, 0.7, 10)}) {
     const Parts parts = parts_for(mask, cut_out(in_float(picture), grown(mask.bounds(), 1)));
     for (const Domain domain : {Domain::kEncoded, Domain::kLinear, Domain::kLog})
@@ -215,7 +215,7 @@ TEST(Live, OntoItselfIsItselfToTheBit) {
 }
 
 TEST(Live, IsWithinALevelOfTheExactSolution) {
-  const Raster<Rgba8> below = photograph(330, 330, 11);
+  const Raster<Rgba8> below = noise_levels(330, 330, 11);
   for (const Mask& mask : {disc_mask(150, 150, 140), snake_mask(300, 280, 40), holed_mask(260, 66, 6)}) {
     const WarpedRegion source = source_for(mask, 13);
     const Parts parts = parts_for(mask, source);
@@ -228,7 +228,7 @@ TEST(Live, IsWithinALevelOfTheExactSolution) {
 }
 
 TEST(Live, AnyNumberOfThreadsPaintsTheSameBits) {
-  const Raster<Rgba8> below = photograph(200, 180, 14);
+  const Raster<Rgba8> below = noise_levels(200, 180, 14);
   for (const Mask& mask : {disc_mask(90, 90, 80), rect_mask({3, 3, 1, 1}), ring_mask(10, 10, 121, 60)}) {
     const Parts parts = parts_for(mask, source_for(mask, 15));
     for (const BlendMode mode : kModes) {

@@ -37,7 +37,7 @@ Raster<Rgba> waves(int width, int height, double phase) {
   return out;
 }
 
-struct Scene {
+struct MixedScene {
   Mask mask;
   WarpedRegion source;
   Raster<Rgba> target;
@@ -45,12 +45,12 @@ struct Scene {
   int dx = 0, dy = 0;
 };
 
-Scene noisy_scene(const Mask& mask) {
+MixedScene noisy_scene(const Mask& mask) {
   const Rect box = grown(mask.bounds(), 1);
   return {mask, noise_region(box, 1), noise(box.width * 3 / 4 + 2, box.height + 3, 2), 2 - box.x, 1 - box.y};
 }
 
-Scene smooth_scene(const Mask& mask) {
+MixedScene smooth_scene(const Mask& mask) {
   const Rect box = grown(mask.bounds(), 1);
   return {mask,
           {box, waves(box.width, box.height, 0.3)},
@@ -60,7 +60,7 @@ Scene smooth_scene(const Mask& mask) {
 }
 
 /// By the definitions in guidance.h and an exact solver; in the domain's values.
-std::vector<Channels> exact_correction(const Scene& scene, const BlendOptions& options) {
+std::vector<Channels> exact_correction(const MixedScene& scene, const BlendOptions& options) {
   const PlacedPair pair(scene.target, scene.source, scene.dx, scene.dy, options);
   const Result<PixelSolver> solver = PixelSolver::make(scene.mask);
   EXPECT_TRUE(solver.ok());
@@ -83,7 +83,7 @@ double error_of(const Correction& correction, const std::vector<Channels>& exact
   return worst;
 }
 
-Result<Correction> solved(const Scene& scene, const BlendOptions& options, CloneQuality quality) {
+Result<Correction> solved(const MixedScene& scene, const BlendOptions& options, CloneQuality quality) {
   const Result<CloneSystem> system = CloneSystem::make(scene.mask);
   const PlacedPair pair(scene.target, scene.source, scene.dx, scene.dy, options);
   return solve_correction(pair, *system, options, quality, 1, {});
@@ -93,7 +93,7 @@ TEST(Mixed, HasTheSidesOfTheDefinitionOnAnyMask) {
   for (const auto& [name, mask] : all_masks()) {
     if (mask.bounds().width > 10'000) continue;
     for (const int kind : {0, 1, 2, 3}) {
-      Scene scene = noisy_scene(mask);
+      MixedScene scene = noisy_scene(mask);
       BlendOptions options = with_mode(BlendMode::kMixed, kind == 3 ? Domain::kLog : Domain::kEncoded);
       if (kind == 1) make_levels(scene.source.pixels), make_levels(scene.target);
       if (kind >= 2) make_translucent(scene.source.pixels, 5), make_translucent(scene.target, 6);
@@ -116,7 +116,7 @@ TEST(Mixed, SeesWhatIsNotFinite) {
         const Rect box = grown(mask.bounds(), 1);
         for (int y = box.y; y < box.bottom(); ++y)
           for (int x = box.x; x < box.right(); ++x) {
-            Scene scene = noisy_scene(mask);
+            MixedScene scene = noisy_scene(mask);
             scene.target = noise(box.width + 4, box.height + 4, 9);
             Rgba& pixel =
                 in_source ? scene.source.pixels.at(x - box.x, y - box.y) : scene.target.at(x + scene.dx, y + scene.dy);
@@ -135,7 +135,7 @@ TEST(Mixed, SeesWhatIsNotFinite) {
 TEST(Mixed, TiesGoToTheSource) {
   // Steps of one level in red on one side, in green on the other; as floats they differ in their last bits.
   const Mask mask = rect_mask({1, 1, 60, 1});
-  Scene scene{mask, {{0, 0, 62, 3}, Raster<Rgba>(62, 3)}, Raster<Rgba>(62, 3), 0, 0};
+  MixedScene scene{mask, {{0, 0, 62, 3}, Raster<Rgba>(62, 3)}, Raster<Rgba>(62, 3), 0, 0};
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 62; ++x) {
       scene.source.pixels.at(x, y) = {static_cast<float>(3 * x) / 255, 0.2f, 0.2f, 1};
@@ -157,7 +157,7 @@ TEST(Mixed, IsAsNearAsItsQualitySays) {
   for (const auto& [name, mask] : masks) {
     if (mask.bounds().width > 10'000) continue;
     for (const bool smooth : {false, true}) {
-      const Scene scene = smooth ? smooth_scene(mask) : noisy_scene(mask);
+      const MixedScene scene = smooth ? smooth_scene(mask) : noisy_scene(mask);
       const BlendOptions options = with_mode(BlendMode::kMixed);
       const std::vector<Channels> exact = exact_correction(scene, options);
       for (const Case& c :
@@ -177,7 +177,7 @@ TEST(Export, IsWithinThreeHundredthsOfALevelOnAnyMask) {
     if (mask.bounds().width > 10'000) continue;
     for (const BlendMode mode : {BlendMode::kImport, BlendMode::kMonochrome})
       for (const Domain domain : {Domain::kEncoded, Domain::kLinear}) {
-        const Scene scene = noisy_scene(mask);
+        const MixedScene scene = noisy_scene(mask);
         const BlendOptions options = with_mode(mode, domain);
         const Result<Correction> correction = solved(scene, options, CloneQuality::kExport);
         ASSERT_TRUE(correction.ok()) << name;
@@ -189,11 +189,11 @@ TEST(Export, IsWithinThreeHundredthsOfALevelOnAnyMask) {
 TEST(Screening, TakesTheCorrectionBackToNothingWithTheDistance) {
   // A long strip, and a difference of 0.5 all along its edge: u = 0.5 cosh(c (y − m)) / cosh(c m), in steps.
   const Mask mask = rect_mask({1, 1, 400, 41});
-  Scene scene{mask,
-              {{0, 0, 402, 43}, Raster<Rgba>(402, 43, {0.25f, 0.25f, 0.25f, 1})},
-              Raster<Rgba>(402, 43, {0.75f, 0.75f, 0.75f, 1}),
-              0,
-              0};
+  MixedScene scene{mask,
+                   {{0, 0, 402, 43}, Raster<Rgba>(402, 43, {0.25f, 0.25f, 0.25f, 1})},
+                   Raster<Rgba>(402, 43, {0.75f, 0.75f, 0.75f, 1}),
+                   0,
+                   0};
   for (const double reach : {3.0, 10.0, 40.0})
     for (const CloneQuality quality : {CloneQuality::kDrag, CloneQuality::kExport}) {
       BlendOptions options;

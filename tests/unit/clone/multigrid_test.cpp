@@ -54,7 +54,7 @@ double worst_error(const std::vector<Float4>& u, const std::vector<Channels>& ex
   return worst;
 }
 
-std::vector<Channels> solve_exactly(const Mask& mask, const std::vector<Channels>& b) {
+std::vector<Channels> solve_directly(const Mask& mask, const std::vector<Channels>& b) {
   const Result<PixelSolver> solver = PixelSolver::make(mask);
   EXPECT_TRUE(solver.ok());
   return solver->solve(b);
@@ -91,7 +91,7 @@ TEST(Multigrid, RefusesEmptyAndHugeMasksAndStops) {
 TEST(Multigrid, SolvesOnMasksOfAnyShape) {
   for (const auto& [name, mask] : all_masks()) {
     const std::vector<Channels> b = noise_side(mask, 2);
-    const std::vector<Channels> exact = solve_exactly(mask, b);
+    const std::vector<Channels> exact = solve_directly(mask, b);
     MultigridSolve solve = make_solve(mask);
     set_side(solve, mask, b);
     const auto done = solve.solve(0.02 * kLevel, 1, 60);
@@ -105,7 +105,7 @@ TEST(Multigrid, SolvesOnMasksOfAnyShape) {
 TEST(Multigrid, SaysHowLargeTheErrorIs) {
   for (const auto& [name, mask] : all_masks()) {
     const std::vector<Channels> b = noise_side(mask, 3);
-    const std::vector<Channels> exact = solve_exactly(mask, b);
+    const std::vector<Channels> exact = solve_directly(mask, b);
     for (const int cycles : {1, 2, 3, 4, 5}) {
       MultigridSolve solve = make_solve(mask);
       set_side(solve, mask, b);
@@ -121,7 +121,7 @@ TEST(Multigrid, SaysHowLargeTheErrorIs) {
 /// How much smaller the error becomes by the third of three cycles.
 double contraction_on(const Mask& mask) {
   const std::vector<Channels> b = noise_side(mask, 4);
-  const std::vector<Channels> exact = solve_exactly(mask, b);
+  const std::vector<Channels> exact = solve_directly(mask, b);
   double before = 0, after = 0;
   for (const int cycles : {2, 3}) {
     MultigridSolve solve = make_solve(mask);
@@ -179,7 +179,7 @@ TEST(Multigrid, MemoryFollowsThePixels) {
 TEST(Multigrid, GoesOnFromWhereItIsTold) {
   const Mask mask = disc_mask(0, 0, 60);
   const std::vector<Channels> b = noise_side(mask, 6);
-  const std::vector<Channels> exact = solve_exactly(mask, b);
+  const std::vector<Channels> exact = solve_directly(mask, b);
   MultigridSolve solve = make_solve(mask);
   set_side(solve, mask, b);
   std::vector<Float4> line;

@@ -15,7 +15,7 @@ namespace {
 
 using testing::polar_shape;
 
-Points circle(int count, double radius) {
+Points round_points(int count, double radius) {
   return polar_shape(count, [&](double) { return radius; });
 }
 
@@ -24,10 +24,10 @@ std::string code_of(const Points& points) {
   return clean ? "" : clean.error().code;
 }
 
-/// A circle with a small loop drawn into it at every `every`-th point.
+/// A round_points with a small loop drawn into it at every `every`-th point.
 Points with_loops(int count, int every, double size) {
   Points points;
-  const Points round = circle(count, 200);
+  const Points round = round_points(count, 200);
   for (int i = 0; i < count; ++i) {
     points.push_back(round[i]);
     if (i % every != 0) continue;
@@ -67,7 +67,7 @@ TEST(Cleanup, RefusesAFigureEightAndNamesTheCrossing) {
 }
 
 TEST(Cleanup, LeavesASimpleCurveItsPoints) {
-  const Points given = circle(50, 100);
+  const Points given = round_points(50, 100);
   const auto clean = clean_sketch(given, 1.0);
   ASSERT_TRUE(clean.ok());
   EXPECT_EQ(clean->curve.size(), 50);
@@ -95,7 +95,7 @@ TEST(Cleanup, TheSameCurveWhereverItStartsAndWhicheverWayItRuns) {
 }
 
 TEST(Cleanup, TurnsTheWayAskedFor) {
-  const Points given = circle(40, 60);
+  const Points given = round_points(40, 60);
   EXPECT_GT(clean_sketch(given, 1.0)->curve.signed_area(), 0);
   EXPECT_LT(clean_sketch(given, -1.0)->curve.signed_area(), 0);
   EXPECT_TRUE(clean_sketch(given, -1.0)->reversed);

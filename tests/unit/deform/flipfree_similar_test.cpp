@@ -20,7 +20,7 @@ Points nearly_even_gear() {
                               [](double a) { return 200 + 50 * std::tanh(3 * std::cos(6 * a)) + 20 * std::cos(a); });
 }
 
-double largest_gap(const Points& a, const Points& b) {
+double similar_gap(const Points& a, const Points& b) {
   EXPECT_EQ(a.size(), b.size());
   double gap = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -89,8 +89,8 @@ TEST(FlipfreeSimilar, ANearlySymmetricShapeTurnsAllTheWay) {
     const auto solution = solve_flipfree(*system, transformed(shape, by), {}, {}, nullptr);
     ASSERT_TRUE(solution.ok());
     const double cell = 1.4 * system->region().mesh().cell;
-    EXPECT_LT(largest_gap(solution->outline, transformed(shape, by)), 1e-5 * cell) << turn;
-    EXPECT_LT(largest_gap(solution->positions, transformed(system->region().mesh().vertices, by)), 1e-5 * cell) << turn;
+    EXPECT_LT(similar_gap(solution->outline, transformed(shape, by)), 1e-5 * cell) << turn;
+    EXPECT_LT(similar_gap(solution->positions, transformed(system->region().mesh().vertices, by)), 1e-5 * cell) << turn;
   }
 }
 
@@ -119,7 +119,7 @@ TEST(FlipfreeSimilar, ASketchMayBeginInTheMiddleOfASide) {
     const auto one = solve_flipfree(*system, pair.sketch, {}, {}, nullptr);
     const auto other = solve_flipfree(*system, sketch, {}, {}, nullptr);
     ASSERT_TRUE(one.ok() && other.ok());
-    EXPECT_LT(largest_gap(one->positions, other->positions), 1e-6 * bounds(pair.sketch).diagonal()) << seed;
+    EXPECT_LT(similar_gap(one->positions, other->positions), 1e-6 * bounds(pair.sketch).diagonal()) << seed;
   }
 }
 
@@ -145,7 +145,7 @@ TEST(FlipfreeAlternatives, AreAnswersOrAreNotOffered) {
       const FlipfreeSolution& other = (*solutions)[k];
       EXPECT_EQ(other.flipped, 0);
       EXPECT_LE(furthest(other), std::max(0.16 * size, 1.6 * furthest(best))) << seed;
-      EXPECT_GT(largest_gap(other.outline, best.outline), 0.02 * size) << seed;
+      EXPECT_GT(similar_gap(other.outline, best.outline), 0.02 * size) << seed;
     }
     asked_for += 5;
     offered += solutions->size();

@@ -19,14 +19,14 @@ using testing::bend_at_random;
 using testing::BentPair;
 using testing::named_shapes;
 
-FlipfreeSystem make_system(const Points& outline) {
+FlipfreeSystem make_flipfree_system(const Points& outline) {
   auto system = FlipfreeSystem::make(ClosedCurve(outline));
   EXPECT_TRUE(system.ok()) << to_string(system.error());
   return std::move(*system);
 }
 
-FlipfreeSolution solve(const FlipfreeSystem& system, const Points& sketch, std::vector<PinPair> pins = {},
-                       const FlipfreeSolution* warm = nullptr, const FlipfreeOptions& options = {}) {
+FlipfreeSolution solve_one(const FlipfreeSystem& system, const Points& sketch, std::vector<PinPair> pins = {},
+                           const FlipfreeSolution* warm = nullptr, const FlipfreeOptions& options = {}) {
   auto solution = solve_flipfree(system, sketch, pins, options, warm);
   EXPECT_TRUE(solution.ok()) << to_string(solution.error());
   return std::move(*solution);
@@ -64,7 +64,7 @@ double largest_gap(const Points& a, const Points& b) {
   return gap;
 }
 
-double truth_error(const FlipfreeSolution& solution, const BentPair& pair) {
+double truth_error_of(const FlipfreeSolution& solution, const BentPair& pair) {
   double sum = 0;
   for (std::size_t i = 0; i < pair.truth.size(); ++i)
     sum += distance(solution.outline[i], pair.truth[i]);
@@ -101,7 +101,7 @@ void expect_sound(const FlipfreeSystem& system, const FlipfreeSolution& solution
 }
 
 TEST(Flipfree, RefusesBadInput) {
-  const FlipfreeSystem system = make_system(testing::fish_shape());
+  const FlipfreeSystem system = make_flipfree_system(testing::fish_shape());
   const auto refused = [&](const Points& sketch, std::vector<PinPair> pins = {}) {
     const auto solution = solve_flipfree(system, sketch, pins, {}, nullptr);
     return solution.ok() ? std::string() : solution.error().code;
@@ -118,14 +118,14 @@ TEST(Flipfree, RefusesBadInput) {
   EXPECT_TRUE(tiny.ok());
   EXPECT_THROW((void)solve_flipfree(system, round, {}, {.stiffness = 0}, nullptr), BugError);
   EXPECT_THROW((void)solve_flipfree(system, round, {}, {.follow = -1}, nullptr), BugError);
-  const FlipfreeSolution other = solve(*tiny, round);
+  const FlipfreeSolution other = solve_one(*tiny, round);
   EXPECT_THROW((void)solve_flipfree(system, round, {}, {}, &other), BugError);
 }
 
 TEST(Flipfree, StopsWhenAskedAndLeavesTheWarmSolution) {
-  const FlipfreeSystem system = make_system(testing::fish_shape());
+  const FlipfreeSystem system = make_flipfree_system(testing::fish_shape());
   const Points sketch = testing::blob_shape();
-  const FlipfreeSolution warm = solve(system, sketch);
+  const FlipfreeSolution warm = solve_one(system, sketch);
   const Points before = warm.positions;
   std::stop_source source;
   source.request_stop();
@@ -140,12 +140,12 @@ TEST(Flipfree, StopsWhenAskedAndLeavesTheWarmSolution) {
 
 TEST(Flipfree, ASimilarSketchGivesTheSimilarity) {
   for (const auto& [name, shape] : named_shapes()) {
-    const FlipfreeSystem system = make_system(shape);
+    const FlipfreeSystem system = make_flipfree_system(shape);
     const Similarity similarity{std::polar(0.4, -0.5), {700, 1200}};
     Points sketch = transformed(shape, similarity);
     std::rotate(sketch.begin(), sketch.begin() + 3, sketch.end());
     std::reverse(sketch.begin(), sketch.end());
-    const FlipfreeSolution solution = solve(system, sketch);
+    const FlipfreeSolution solution = solve_one(system, sketch);
     const auto& mesh = system.region().mesh();
     EXPECT_LT(largest_gap(solution.positions, transformed(mesh.vertices, similarity)), 1e-5 * 0.4 * mesh.cell) << name;
     EXPECT_LT(largest_gap(solution.outline, transformed(shape, similarity)), 1e-5 * 0.4 * mesh.cell) << name;
@@ -156,17 +156,17 @@ TEST(Flipfree, DependsNeitherOnPlaceNorScaleNorStartNorDirection) {
   for (std::uint32_t seed = 0; seed < 7; ++seed) {
     const auto [name, shape] = named_shapes()[seed];
     const auto pair = bend_at_random(shape, 50 + seed);
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution first = solve(system, pair.sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution first = solve_one(system, pair.sketch);
     const double size = bounds(pair.sketch).diagonal();
     Points sketch = pair.sketch;
     std::rotate(sketch.begin(), sketch.begin() + 31, sketch.end());
-    EXPECT_LT(largest_gap(solve(system, sketch).positions, first.positions), 1e-6 * size) << name;
+    EXPECT_LT(largest_gap(solve_one(system, sketch).positions, first.positions), 1e-6 * size) << name;
     std::reverse(sketch.begin(), sketch.end());
-    EXPECT_LT(largest_gap(solve(system, sketch).positions, first.positions), 1e-6 * size) << name;
+    EXPECT_LT(largest_gap(solve_one(system, sketch).positions, first.positions), 1e-6 * size) << name;
     for (const double scale : {0.05, 20.0}) {
       const Similarity by{scale, {-1234.5, 777.25}};
-      const FlipfreeSolution other = solve(system, transformed(pair.sketch, by));
+      const FlipfreeSolution other = solve_one(system, transformed(pair.sketch, by));
       EXPECT_LT(largest_gap(transformed(other.positions, by.inverse()), first.positions), 1e-6 * size) << name;
     }
   }
@@ -176,8 +176,8 @@ TEST(Flipfree, AnOutlineTheOtherWayRoundGoesToTheSamePlaces) {
   const auto pair = bend_at_random(testing::pineapple_shape(), 4);
   Points backwards = pair.outline;
   std::reverse(backwards.begin(), backwards.end());
-  const FlipfreeSystem one = make_system(pair.outline), other = make_system(backwards);
-  const FlipfreeSolution first = solve(one, pair.sketch), second = solve(other, pair.sketch);
+  const FlipfreeSystem one = make_flipfree_system(pair.outline), other = make_flipfree_system(backwards);
+  const FlipfreeSolution first = solve_one(one, pair.sketch), second = solve_one(other, pair.sketch);
   expect_sound(other, second, "backwards");
   Points turned_back = second.outline;
   std::reverse(turned_back.begin(), turned_back.end());
@@ -190,8 +190,8 @@ TEST(Flipfree, CorrespondenceIsWhereTheOutlineLies) {
     const auto pair = bend_at_random(testing::fish_shape(), 12, 0.25, 0.3);
     Points sketch = pair.sketch;
     if (backwards) std::reverse(sketch.begin(), sketch.end());
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution solution = solve(system, sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution solution = solve_one(system, sketch);
     Points run = sketch;
     if (ClosedCurve(sketch).signed_area() * system.outline().signed_area() < 0)
       std::reverse(run.begin() + 1, run.end());
@@ -209,10 +209,10 @@ TEST(Flipfree, RandomBendsNeverFlipAndComeNearTheTruth) {
   for (std::uint32_t seed = 0; seed < 70; ++seed) {
     const auto& [name, shape] = shapes[seed % shapes.size()];
     const auto pair = bend_at_random(shape, 5000 + seed, 0.2 + 0.05 * (seed % 4));
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution solution = solve(system, pair.sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution solution = solve_one(system, pair.sketch);
     expect_sound(system, solution, std::string(name) + " " + std::to_string(seed));
-    if (name != "ellipse" && name != "blob" && name != "star") errors.push_back(truth_error(solution, pair));
+    if (name != "ellipse" && name != "blob" && name != "star") errors.push_back(truth_error_of(solution, pair));
   }
   std::sort(errors.begin(), errors.end());
   EXPECT_LT(errors[errors.size() / 2], 0.009);
@@ -221,10 +221,10 @@ TEST(Flipfree, RandomBendsNeverFlipAndComeNearTheTruth) {
 TEST(Flipfree, UnrelatedShapesDoNotFlipEither) {
   const auto shapes = named_shapes();
   for (const auto& [name, shape] : shapes) {
-    const FlipfreeSystem system = make_system(shape);
+    const FlipfreeSystem system = make_flipfree_system(shape);
     for (const auto& [other_name, other] : shapes)
       if (name != other_name)
-        expect_sound(system, solve(system, other), std::string(name) + " to " + std::string(other_name));
+        expect_sound(system, solve_one(system, other), std::string(name) + " to " + std::string(other_name));
   }
 }
 
@@ -232,8 +232,8 @@ TEST(Flipfree, HandlesHaveSlidToWhereTheyRest) {
   for (std::uint32_t seed = 0; seed < 7; ++seed) {
     const auto [name, shape] = named_shapes()[seed];
     const auto pair = bend_at_random(shape, 60 + seed, 0.25);
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution solution = solve(system, pair.sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution solution = solve_one(system, pair.sketch);
     const ClosedCurve& curve = solution.sketch->curve;
     const double cell =
         system.region().mesh().cell * std::sqrt(std::abs(curve.signed_area() / system.outline().signed_area()));
@@ -253,8 +253,8 @@ TEST(Flipfree, HandlesHaveSlidToWhereTheyRest) {
 
 TEST(Flipfree, WarmWithNothingChangedStaysAndMatchesNothing) {
   const auto pair = bend_at_random(testing::cactus_shape(), 8);
-  const FlipfreeSystem system = make_system(pair.outline);
-  const FlipfreeSolution first = solve(system, pair.sketch), second = solve(system, pair.sketch, {}, &first);
+  const FlipfreeSystem system = make_flipfree_system(pair.outline);
+  const FlipfreeSolution first = solve_one(system, pair.sketch), second = solve_one(system, pair.sketch, {}, &first);
   EXPECT_EQ(second.start, FlipfreeStart::kWarm);
   EXPECT_EQ(second.matches, 0);
   EXPECT_LE(second.iterations, 3);
@@ -263,11 +263,11 @@ TEST(Flipfree, WarmWithNothingChangedStaysAndMatchesNothing) {
 
 TEST(Flipfree, WarmStepsAreFewForOptions) {
   const auto pair = bend_at_random(testing::fish_shape(), 21);
-  const FlipfreeSystem system = make_system(pair.outline);
-  const FlipfreeSolution first = solve(system, pair.sketch);
+  const FlipfreeSystem system = make_flipfree_system(pair.outline);
+  const FlipfreeSolution first = solve_one(system, pair.sketch);
   for (const FlipfreeOptions options :
        {FlipfreeOptions{.follow = 5}, FlipfreeOptions{.follow = 60}, FlipfreeOptions{.stiffness = 0.5}}) {
-    const FlipfreeSolution second = solve(system, pair.sketch, {}, &first, options);
+    const FlipfreeSolution second = solve_one(system, pair.sketch, {}, &first, options);
     EXPECT_EQ(second.matches, 0);
     EXPECT_LE(second.iterations, 10);
     expect_sound(system, second, "options");
@@ -278,11 +278,11 @@ TEST(Flipfree, AnOversketchKeepsTheCorrespondenceElsewhere) {
   for (std::uint32_t seed = 0; seed < 14; ++seed) {
     const auto [name, shape] = named_shapes()[seed % 7];
     const auto pair = bend_at_random(shape, 300 + seed, 0.2);
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution first = solve(system, pair.sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution first = solve_one(system, pair.sketch);
     const Points sketch = redraw(pair.sketch, 0.3, 0.5, 0.08 * bounds(pair.sketch).diagonal());
     if (!clean_sketch(sketch, 1.0)) continue;
-    const FlipfreeSolution second = solve(system, sketch, {}, &first);
+    const FlipfreeSolution second = solve_one(system, sketch, {}, &first);
     EXPECT_EQ(second.start, FlipfreeStart::kRemapped) << name;
     EXPECT_EQ(second.matches, 0) << name;
     expect_sound(system, second, std::string(name));
@@ -299,21 +299,21 @@ TEST(Flipfree, AnOversketchKeepsTheCorrespondenceElsewhere) {
 }
 
 TEST(Flipfree, ANewSketchIsMatchedAnew) {
-  const FlipfreeSystem system = make_system(testing::fish_shape());
-  const FlipfreeSolution first = solve(system, testing::blob_shape());
-  const FlipfreeSolution second = solve(system, testing::ellipse_shape(), {}, &first);
+  const FlipfreeSystem system = make_flipfree_system(testing::fish_shape());
+  const FlipfreeSolution first = solve_one(system, testing::blob_shape());
+  const FlipfreeSolution second = solve_one(system, testing::ellipse_shape(), {}, &first);
   EXPECT_EQ(second.start, FlipfreeStart::kMatched);
   EXPECT_EQ(second.matches, 1);
-  EXPECT_EQ(second.positions, solve(system, testing::ellipse_shape()).positions);
+  EXPECT_EQ(second.positions, solve_one(system, testing::ellipse_shape()).positions);
 }
 
 TEST(Flipfree, FramesOfADragTakeTwoStepsAndStaySound) {
   const auto pair = bend_at_random(testing::cactus_shape(), 31, 0.2);
-  const FlipfreeSystem system = make_system(pair.outline);
-  FlipfreeSolution at = solve(system, pair.sketch);
+  const FlipfreeSystem system = make_flipfree_system(pair.outline);
+  FlipfreeSolution at = solve_one(system, pair.sketch);
   for (int frame = 1; frame <= 12; ++frame) {
     const Points sketch = redraw(pair.sketch, 0.1, 0.3, 3.0 * frame);
-    at = solve(system, sketch, {}, &at, {.most_steps = 2});
+    at = solve_one(system, sketch, {}, &at, {.most_steps = 2});
     EXPECT_LE(at.iterations, 2);
     EXPECT_LE(at.numeric_factorizations, 2);
     EXPECT_EQ(at.matches, 0);
@@ -325,8 +325,8 @@ TEST(Flipfree, PinsAreMet) {
   for (std::uint32_t seed = 0; seed < 14; ++seed) {
     const auto [name, shape] = named_shapes()[seed % 7];
     const auto pair = bend_at_random(shape, 700 + seed, 0.2);
-    const FlipfreeSystem system = make_system(pair.outline);
-    const FlipfreeSolution first = solve(system, pair.sketch);
+    const FlipfreeSystem system = make_flipfree_system(pair.outline);
+    const FlipfreeSolution first = solve_one(system, pair.sketch);
     const ClosedCurve& curve = first.sketch->curve;
     std::vector<PinPair> pins;
     for (const std::size_t i : {40U, 180U, 300U}) {
@@ -336,7 +336,7 @@ TEST(Flipfree, PinsAreMet) {
     const double cell =
         system.region().mesh().cell * std::sqrt(std::abs(curve.signed_area() / system.outline().signed_area()));
     for (const FlipfreeSolution* warm : {static_cast<const FlipfreeSolution*>(nullptr), &first}) {
-      const FlipfreeSolution second = solve(system, pair.sketch, pins, warm);
+      const FlipfreeSolution second = solve_one(system, pair.sketch, pins, warm);
       EXPECT_EQ(second.matches, warm ? 0 : 1) << name;
       EXPECT_LE(second.pin_distance, 0.1) << name;
       expect_sound(system, second, std::string(name));
@@ -352,13 +352,13 @@ TEST(Flipfree, PinsAreMet) {
 TEST(Flipfree, APinOnASmoothShapeTakesFewSteps) {
   const Points outline = resample(ClosedCurve(testing::ellipse_shape()), 400);
   const Points sketch = transformed(outline, Similarity{std::polar(1.0, std::numbers::pi / 2), {40, -30}});
-  const FlipfreeSystem system = make_system(outline);
-  FlipfreeSolution last = solve(system, sketch);
+  const FlipfreeSystem system = make_flipfree_system(outline);
+  FlipfreeSolution last = solve_one(system, sketch);
   const ClosedCurve& curve = last.sketch->curve;
   const double s = curve.nearest(last.outline[170]).s;
   for (const double shift : {0.03, 0.0, -0.02, 0.0}) {
     const PinPair pin{outline[170], curve.at(s + shift * curve.length())};
-    last = solve(system, sketch, {pin}, &last);
+    last = solve_one(system, sketch, {pin}, &last);
     EXPECT_EQ(last.matches, 0);
     EXPECT_LE(last.iterations, 12) << "moved to " << shift;
     EXPECT_LE(last.pin_distance, 0.1);
@@ -368,12 +368,12 @@ TEST(Flipfree, APinOnASmoothShapeTakesFewSteps) {
 
 TEST(Flipfree, APinFarAwayIsMatchedAnew) {
   const auto pair = bend_at_random(testing::bar_shape(), 5, 0.2);
-  const FlipfreeSystem system = make_system(pair.outline);
-  const FlipfreeSolution first = solve(system, pair.sketch);
+  const FlipfreeSystem system = make_flipfree_system(pair.outline);
+  const FlipfreeSolution first = solve_one(system, pair.sketch);
   const ClosedCurve& curve = first.sketch->curve;
   // The bar the other way round.
   const double s = curve.nearest(first.outline[20]).s + 0.5 * curve.length();
-  const FlipfreeSolution second = solve(system, pair.sketch, {{pair.outline[20], curve.at(s)}}, &first);
+  const FlipfreeSolution second = solve_one(system, pair.sketch, {{pair.outline[20], curve.at(s)}}, &first);
   EXPECT_EQ(second.matches, 1);
   EXPECT_LE(second.pin_distance, 0.1);
   expect_sound(system, second, "turned");
@@ -381,32 +381,32 @@ TEST(Flipfree, APinFarAwayIsMatchedAnew) {
 
 TEST(Flipfree, PinsFarFromTheCurvesAreSnapped) {
   const auto pair = bend_at_random(testing::fish_shape(), 6, 0.2);
-  const FlipfreeSystem system = make_system(pair.outline);
-  const FlipfreeSolution free = solve(system, pair.sketch);
+  const FlipfreeSystem system = make_flipfree_system(pair.outline);
+  const FlipfreeSolution free = solve_one(system, pair.sketch);
   const Point far = pair.outline[100] + 50 * (pair.outline[100] / length(pair.outline[100]));
-  const FlipfreeSolution pinned = solve(system, pair.sketch, {{far, free.outline[100]}});
+  const FlipfreeSolution pinned = solve_one(system, pair.sketch, {{far, free.outline[100]}});
   EXPECT_LE(pinned.pin_distance, 0.1);
   expect_sound(system, pinned, "snapped");
 }
 
 TEST(Flipfree, AlternativesAreSolvedAndDistinct) {
-  const FlipfreeSystem system = make_system(testing::bar_shape());
+  const FlipfreeSystem system = make_flipfree_system(testing::bar_shape());
   const Points sketch = transformed(testing::bar_shape(), {std::polar(1.2, 0.4), {10, 20}});
   const auto solutions = solve_alternatives(system, sketch, {}, {}, 3);
   ASSERT_TRUE(solutions.ok());
   ASSERT_GE(solutions->size(), 2U);
   for (const FlipfreeSolution& solution : *solutions)
     expect_sound(system, solution, "alternative");
-  EXPECT_EQ((*solutions)[0].positions, solve(system, sketch).positions);
+  EXPECT_EQ((*solutions)[0].positions, solve_one(system, sketch).positions);
   EXPECT_LE((*solutions)[0].match_cost, (*solutions)[1].match_cost);
   EXPECT_GT(largest_gap((*solutions)[0].positions, (*solutions)[1].positions), 100);
 }
 
 TEST(Flipfree, ThinOutlinesAndManyLoops) {
   const Points thin{{0, 0}, {400, 0}, {400, 1.5}, {0, 1.5}};
-  const FlipfreeSystem system = make_system(thin);
-  expect_sound(system, solve(system, {{0, 0}, {300, 200}, {299, 202}, {-2, 2}}), "thin");
-  const FlipfreeSystem fish = make_system(testing::fish_shape());
+  const FlipfreeSystem system = make_flipfree_system(thin);
+  expect_sound(system, solve_one(system, {{0, 0}, {300, 200}, {299, 202}, {-2, 2}}), "thin");
+  const FlipfreeSystem fish = make_flipfree_system(testing::fish_shape());
   Points loops;
   const Points round = testing::polar_shape(3000, [](double) { return 150.0; });
   for (std::size_t i = 0; i < round.size(); ++i) {
@@ -416,7 +416,7 @@ TEST(Flipfree, ThinOutlinesAndManyLoops) {
     for (const Point turn : {Point{0.8, 0.5}, Point{0.4, 0.8}, Point{0.3, -0.3}})
       loops.push_back(round[i] + turn.x * way + turn.y * turned(way));
   }
-  const FlipfreeSolution solution = solve(fish, loops);
+  const FlipfreeSolution solution = solve_one(fish, loops);
   EXPECT_GE(solution.sketch->loops_cut, 900);
   expect_sound(fish, solution, "loops");
 }

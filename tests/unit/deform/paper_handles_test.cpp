@@ -20,7 +20,7 @@ using paper_test::make_grid;
 using Complex = std::complex<double>;
 
 /// What holds of either form.
-class HandleSystemForms : public testing::TestWithParam<HandleForm> {
+class HandleSystemForms : public ::testing::TestWithParam<HandleForm> {
 protected:
   static HandleSystem make_system(const GridMesh& grid, double weight = 1) {
     auto made = HandleSystem::make(grid.mesh, grid.loop, weight, {}, GetParam());
@@ -30,7 +30,7 @@ protected:
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(HandleSystem, HandleSystemForms, testing::Values(HandleForm::kReduced, HandleForm::kSparse),
+INSTANTIATE_TEST_SUITE_P(HandleSystem, HandleSystemForms, ::testing::Values(HandleForm::kReduced, HandleForm::kSparse),
                          [](const auto& form) { return form.param == HandleForm::kReduced ? "Reduced" : "Sparse"; });
 
 /// All that a system says of its targets.

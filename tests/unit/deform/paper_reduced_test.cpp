@@ -220,7 +220,7 @@ TEST(Elimination, AgreesWithTheDenseComplement) {
   }
 }
 
-ClosedCurve make_sketch() {
+ClosedCurve make_clover() {
   Points points;
   for (int k = 0; k < 90; ++k) {
     const double angle = 2 * std::numbers::pi * k / 90, radius = 60 + 25 * std::cos(3 * angle) + 9 * std::sin(angle);
@@ -231,7 +231,7 @@ ClosedCurve make_sketch() {
 
 /// The paper's descent from handles at even distances, 50 steps: all that the handles and energies went through.
 std::vector<ComplexVector> descend(const HandleSystem& system, std::vector<double>& energies) {
-  const ClosedCurve sketch = make_sketch();
+  const ClosedCurve sketch = make_clover();
   ComplexVector h(system.handle_count());
   for (int i = 0; i < system.handle_count(); ++i)
     h[i] = to_complex(sketch.at(sketch.length() * i / system.handle_count()));

@@ -14,31 +14,31 @@ namespace {
 
 using namespace testing;
 
-std::string refusal(std::string_view line) {
+std::string parse_refusal(std::string_view line) {
   const auto command = parse_command(line);
   return command.ok() ? "accepted" : command.error().code;
 }
 
 TEST(ParseCommand, refuses_what_is_wrong) {
-  EXPECT_EQ(refusal(""), "script.syntax");
-  EXPECT_EQ(refusal("{\"do\": \"layer.move\", "), "script.syntax");
-  EXPECT_EQ(refusal("[1, 2]"), "script.not-an-object");
-  EXPECT_EQ(refusal("{}"), "script.no-do");
-  EXPECT_EQ(refusal("{\"do\": 5}"), "script.no-do");
-  EXPECT_EQ(refusal(R"({"do": "layer.fly"})"), "script.unknown-command");
-  EXPECT_EQ(refusal(R"({"do": "layer.move", "by": [1, 2], "fast": true})"), "script.unknown-key");
-  EXPECT_EQ(refusal(R"({"do": "layer.move"})"), "script.missing-key");
-  EXPECT_EQ(refusal(R"({"do": "layer.move", "by": [1.5, 2]})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "layer.move", "by": [1e99, 2]})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "layer.move", "by": [1, 2], "by": [3, 4]})"), "script.repeated-key");
-  EXPECT_EQ(refusal(R"({"do": "region.set", "outline": [[1, 2], [3]]})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "region.set", "outline": [[1, 2], [3, 1e999]]})"), "script.syntax");
-  EXPECT_EQ(refusal(R"({"do": "layer.select", "layer": "L0"})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "layer.select", "layer": "L99999999999"})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "layer.select", "layer": 1})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "layer.set", "mode": "mixd"})"), "script.type");
-  EXPECT_EQ(refusal(R"({"do": "document.new", "width": 9, "height": 9, "color": "#12345g"})"), "script.type");
-  EXPECT_EQ(refusal(std::string(100000, '[')), "script.syntax");
+  EXPECT_EQ(parse_refusal(""), "script.syntax");
+  EXPECT_EQ(parse_refusal("{\"do\": \"layer.move\", "), "script.syntax");
+  EXPECT_EQ(parse_refusal("[1, 2]"), "script.not-an-object");
+  EXPECT_EQ(parse_refusal("{}"), "script.no-do");
+  EXPECT_EQ(parse_refusal("{\"do\": 5}"), "script.no-do");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.fly"})"), "script.unknown-command");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.move", "by": [1, 2], "fast": true})"), "script.unknown-key");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.move"})"), "script.missing-key");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.move", "by": [1.5, 2]})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.move", "by": [1e99, 2]})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.move", "by": [1, 2], "by": [3, 4]})"), "script.repeated-key");
+  EXPECT_EQ(parse_refusal(R"({"do": "region.set", "outline": [[1, 2], [3]]})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "region.set", "outline": [[1, 2], [3, 1e999]]})"), "script.syntax");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.select", "layer": "L0"})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.select", "layer": "L99999999999"})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.select", "layer": 1})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "layer.set", "mode": "mixd"})"), "script.type");
+  EXPECT_EQ(parse_refusal(R"({"do": "document.new", "width": 9, "height": 9, "color": "#12345g"})"), "script.type");
+  EXPECT_EQ(parse_refusal(std::string(100000, '[')), "script.syntax");
 }
 
 TEST(ParseCommand, asks_whether_you_meant) {

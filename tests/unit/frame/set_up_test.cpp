@@ -134,10 +134,12 @@ std::set<std::string> find_packages(const std::string& text) {
 
 TEST(Packages, ScriptCMakeAndReadmeNameTheSame) {
   const fs::path folder = fs::path(OVERSKETCH_SOURCE_DIR) / "third_party";
-  const auto packages = find_packages(read_text(folder / "packages.sh"));
+  auto packages = find_packages(read_text(folder / "packages.sh"));
   EXPECT_GE(packages.size(), 8U);
-  EXPECT_EQ(packages, find_packages(read_text(folder / "CMakeLists.txt")));
   EXPECT_EQ(packages, find_packages(read_text(folder / "README.md")));
+  // Clang's own library is found by Clang.
+  packages.erase("libclang-rt-dev");
+  EXPECT_EQ(packages, find_packages(read_text(folder / "CMakeLists.txt")));
 }
 
 } // namespace

@@ -19,7 +19,7 @@ struct Sample {
   std::size_t spare = 0;
 };
 
-Image noisy(int width, int height, bool alpha) {
+Image noise_picture(int width, int height, bool alpha) {
   craft::Random random(21);
   Raster<Rgba> pixels(width, height);
   for (Rgba& p : pixels.values())
@@ -81,10 +81,10 @@ std::vector<Sample> samples() {
     palette.samples.push_back(i % 4);
   palette.before_pixels = craft::png_chunk("PLTE", random_bytes(12, 1));
   palette.after_pixels = craft::png_chunk("eXIf", craft::tiff_block(6));
-  return {{"png 8", encode_png(noisy(9, 7, true)).value()},
-          {"png 16", encode_png(noisy(5, 4, false), BitDepth::k16).value()},
+  return {{"png 8", encode_png(noise_picture(9, 7, true)).value()},
+          {"png 16", encode_png(noise_picture(5, 4, false), BitDepth::k16).value()},
           {"png palette", craft::make_png(palette)},
-          {"jpeg", craft::with_app1(encode_jpeg(noisy(24, 20, false), 90).value(), craft::exif_block(6))},
+          {"jpeg", craft::with_app1(encode_jpeg(noise_picture(24, 20, false), 90).value(), craft::exif_block(6))},
           {"jpeg progressive", craft::read_data("progressive.jpg")},
           {"jpeg arithmetic", craft::read_data("arithmetic.jpg")},
           {"jpeg restart", craft::read_data("grey_restart.jpg")},

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 const char* const kSquare = "[[0, 0], [90, 0], [90, 90], [0, 90]]";
 
-std::string refusal(const std::string& text) {
+std::string case_refusal(const std::string& text) {
   const TempFolder folder;
   folder.write("case.json", text);
   const auto given = read_case(folder / "case.json");
@@ -72,29 +72,29 @@ double largest_distance(const Points& a, const Points& b) {
 
 TEST(CaseFile, refuses_what_is_no_case) {
   for (const char* text : {"", "{", "{\"outline\": [[0, 0]", "[NaN]", "{\"outline\": [[0, 1e999]]}"})
-    EXPECT_EQ(refusal(text), "case.syntax") << text;
+    EXPECT_EQ(case_refusal(text), "case.syntax") << text;
   for (const char* text : {"[]", "3", "null", "\"outline\""})
-    EXPECT_EQ(refusal(text), "case.type") << text;
-  EXPECT_EQ(refusal("{}"), "case.missing-key");
-  EXPECT_EQ(refusal(std::string(R"({"outline": )") + kSquare + "}"), "case.missing-key");
-  EXPECT_EQ(refusal(std::string(R"({"sketch": )") + kSquare + "}"), "case.missing-key");
-  EXPECT_EQ(refusal(with("null", kSquare)), "case.missing-key");
+    EXPECT_EQ(case_refusal(text), "case.type") << text;
+  EXPECT_EQ(case_refusal("{}"), "case.missing-key");
+  EXPECT_EQ(case_refusal(std::string(R"({"outline": )") + kSquare + "}"), "case.missing-key");
+  EXPECT_EQ(case_refusal(std::string(R"({"sketch": )") + kSquare + "}"), "case.missing-key");
+  EXPECT_EQ(case_refusal(with("null", kSquare)), "case.missing-key");
   for (const char* wrong : {"3", "{}", "[1, 2]", "[[1]]", "[[1, 2, 3]]", R"([[1, "2"]])", R"("none")", "[[1, null]]"}) {
-    EXPECT_EQ(refusal(with(wrong, kSquare)), "case.type") << wrong;
-    EXPECT_EQ(refusal(with(kSquare, wrong)), "case.type") << wrong;
-    EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"truth\": ") + wrong)), "case.type") << wrong;
+    EXPECT_EQ(case_refusal(with(wrong, kSquare)), "case.type") << wrong;
+    EXPECT_EQ(case_refusal(with(kSquare, wrong)), "case.type") << wrong;
+    EXPECT_EQ(case_refusal(with(kSquare, kSquare, std::string(", \"truth\": ") + wrong)), "case.type") << wrong;
   }
   for (const char* wrong : {"{}", "[[1, 2]]", R"([{"outline": [1, 2]}])", R"([{"outline": [1], "sketch": [1, 2]}])",
                             R"([{"outline": [1, 2], "sketch": 3}])", "[3]", R"(["outline"])"})
-    EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"pins\": ") + wrong)), "case.type") << wrong;
-  EXPECT_EQ(refusal(with(kSquare, kSquare, R"(, "truth": [[1, 2], [3, 4]])")), "case.truth");
+    EXPECT_EQ(case_refusal(with(kSquare, kSquare, std::string(", \"pins\": ") + wrong)), "case.type") << wrong;
+  EXPECT_EQ(case_refusal(with(kSquare, kSquare, R"(, "truth": [[1, 2], [3, 4]])")), "case.truth");
   for (const char* misspelt : {"pin", "Pins", "thruth", "sketches", "OUTLINE"})
-    EXPECT_EQ(refusal(with(kSquare, kSquare, std::string(", \"") + misspelt + "\": []")), "case.unknown-key")
+    EXPECT_EQ(case_refusal(with(kSquare, kSquare, std::string(", \"") + misspelt + "\": []")), "case.unknown-key")
         << misspelt;
-  EXPECT_EQ(refusal(with("[]", kSquare)), "curve.too-few-points");
-  EXPECT_EQ(refusal(with("[[0, 0], [9, 9]]", kSquare)), "curve.too-few-points");
-  EXPECT_EQ(refusal(with("[[0, 0], [9, 9], [18, 18]]", kSquare)), "curve.no-area");
-  EXPECT_EQ(refusal(with("[[0, 0], [90, 90], [90, 0], [0, 80]]", kSquare)), "curve.crosses-itself");
+  EXPECT_EQ(case_refusal(with("[]", kSquare)), "curve.too-few-points");
+  EXPECT_EQ(case_refusal(with("[[0, 0], [9, 9]]", kSquare)), "curve.too-few-points");
+  EXPECT_EQ(case_refusal(with("[[0, 0], [9, 9], [18, 18]]", kSquare)), "curve.no-area");
+  EXPECT_EQ(case_refusal(with("[[0, 0], [90, 90], [90, 0], [0, 80]]", kSquare)), "curve.crosses-itself");
   EXPECT_EQ(read_case("nowhere/case.json").error().code, "file.missing");
 }
 

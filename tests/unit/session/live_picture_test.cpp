@@ -15,7 +15,7 @@ using namespace testing;
 using live::Picture;
 using live::Quality;
 
-void run(Session& session, const Command& command) {
+void execute(Session& session, const Command& command) {
   const auto done = session.execute(command);
   ASSERT_TRUE(done.ok()) << to_string(done.error());
 }
@@ -25,16 +25,16 @@ Session four_layers() {
   Session session;
   DocumentNew begin;
   begin.target = loaded_ref("target.png", wavy_image(200, 140, 0));
-  run(session, begin);
+  execute(session, begin);
   for (int i = 0; i < 4; ++i) {
-    run(session, LayerAdd{loaded_ref("source.png", wavy_image(120, 110, 1 + i)), std::nullopt});
-    run(session, RegionSet{{}, blob({60, 55}, 30)});
-    run(session, SketchSet{{}, blob({40 + 38.0 * i, 65 + 6.0 * (i % 2)}, 24, 0.2, 50, i)});
+    execute(session, LayerAdd{loaded_ref("source.png", wavy_image(120, 110, 1 + i)), std::nullopt});
+    execute(session, RegionSet{{}, blob({60, 55}, 30)});
+    execute(session, SketchSet{{}, blob({40 + 38.0 * i, 65 + 6.0 * (i % 2)}, 24, 0.2, 50, i)});
     LayerSet set;
     set.mode = std::array{CloneMode::kImport, CloneMode::kMixed, CloneMode::kNone, CloneMode::kAverage}.at(
         static_cast<std::size_t>(i));
     if (i == 3) set.opacity = 0.7;
-    run(session, set);
+    execute(session, set);
   }
   return session;
 }
@@ -60,7 +60,7 @@ struct Follower {
   }
 };
 
-int greatest_difference(const Raster<Rgba8>& a, const Raster<Rgba8>& b) {
+int worst_difference(const Raster<Rgba8>& a, const Raster<Rgba8>& b) {
   if (a.rect() != b.rect()) return 256;
   int most = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
@@ -86,7 +86,7 @@ TEST(LivePicture, is_the_composite_to_a_level_for_each_layer_at_rest) {
   follower.paint(session, Quality::kRest);
   const auto composite = session.composite();
   ASSERT_TRUE(composite.ok());
-  EXPECT_LE(greatest_difference(follower.screen, to_display(*composite)), 4);
+  EXPECT_LE(worst_difference(follower.screen, to_display(*composite)), 4);
 }
 
 TEST(LivePicture, painting_what_has_changed_equals_painting_all) {
@@ -98,24 +98,24 @@ TEST(LivePicture, painting_what_has_changed_equals_painting_all) {
     const LayerId layer{number(1, 4)};
     switch (number(0, 5)) {
     case 0:
-      run(session, LayerOrder{layer, number(0, 3)});
+      execute(session, LayerOrder{layer, number(0, 3)});
       break;
     case 1: {
       LayerSet set;
       set.layer = layer;
       set.visible = number(0, 1) == 1;
-      run(session, set);
+      execute(session, set);
       break;
     }
     case 2: {
       LayerSet set;
       set.layer = layer;
       set.opacity = 0.25 * number(1, 4);
-      run(session, set);
+      execute(session, set);
       break;
     }
     default:
-      run(session, LayerMove{layer, {number(-12, 12), number(-12, 12)}});
+      execute(session, LayerMove{layer, {number(-12, 12), number(-12, 12)}});
     }
     if (number(0, 2) == 0) follower.paint(session, Quality::kFirst);
     follower.paint(session, Quality::kRest);
@@ -134,11 +134,11 @@ TEST(LivePicture, a_move_changes_only_what_overlaps) {
   LayerSet hide;
   hide.layer = LayerId{2};
   hide.visible = false;
-  run(session, hide);
+  execute(session, hide);
   follower.paint(session, Quality::kRest);
   // Nothing joins the first layer with the others any more.
   const Raster<Rgba8> apart = follower.screen;
-  run(session, LayerMove{LayerId{4}, {5, 0}});
+  execute(session, LayerMove{LayerId{4}, {5, 0}});
   const auto layers = session.drawn_layers();
   ASSERT_TRUE(layers.ok());
   PictureUpdate update;
@@ -153,7 +153,7 @@ TEST(LivePicture, a_cancelled_painting_is_made_up_for) {
   Session session = four_layers();
   Follower follower;
   follower.paint(session, Quality::kRest);
-  run(session, LayerMove{LayerId{2}, {9, 4}});
+  execute(session, LayerMove{LayerId{2}, {9, 4}});
   const auto layers = session.drawn_layers();
   ASSERT_TRUE(layers.ok());
   std::stop_source stop;

@@ -11,25 +11,25 @@ using namespace testing;
 
 const std::string kHeader = "{\"oversketch_script\": 1}\n";
 
-Error refusal(const std::string& text) {
+Error script_error(const std::string& text) {
   const auto lines = parse_script(text, "work.jsonl");
   if (lines.ok()) return {"accepted", "", ""};
   return lines.error();
 }
 
 TEST(ParseScript, refuses_what_is_wrong_and_says_where) {
-  EXPECT_EQ(refusal("").code, "script.header");
-  EXPECT_EQ(refusal("\n# nothing\n").code, "script.header");
-  EXPECT_EQ(refusal("{\"do\": \"undo\"}\n").code, "script.header");
-  EXPECT_EQ(refusal("PNG\x01\x02").code, "script.header");
-  EXPECT_EQ(refusal("{\"oversketch_script\": 2}\n").code, "script.version");
-  EXPECT_EQ(refusal("{\"oversketch_script\": 1, \"x\": 2}\n").code, "script.header");
-  EXPECT_EQ(refusal(kHeader + "{\"do\": \"undoo\"}").code, "script.unknown-command");
-  EXPECT_NE(refusal(kHeader + "{\"do\": \"undoo\"}").sentence.find("did you mean \"undo\"?"), std::string::npos);
-  EXPECT_EQ(refusal(kHeader + "{\"do\": \"undo\", \"step\": 2}").code, "script.unknown-key");
-  EXPECT_EQ(refusal(kHeader + "{\"do\": \"undo\", \"steps\": -2}").code, "value.range");
-  EXPECT_EQ(refusal(kHeader + "{\"do\": \"export\"}").code, "script.missing-key");
-  EXPECT_EQ(refusal(kHeader + kHeader).code, "script.no-do");
+  EXPECT_EQ(script_error("").code, "script.header");
+  EXPECT_EQ(script_error("\n# nothing\n").code, "script.header");
+  EXPECT_EQ(script_error("{\"do\": \"undo\"}\n").code, "script.header");
+  EXPECT_EQ(script_error("PNG\x01\x02").code, "script.header");
+  EXPECT_EQ(script_error("{\"oversketch_script\": 2}\n").code, "script.version");
+  EXPECT_EQ(script_error("{\"oversketch_script\": 1, \"x\": 2}\n").code, "script.header");
+  EXPECT_EQ(script_error(kHeader + "{\"do\": \"undoo\"}").code, "script.unknown-command");
+  EXPECT_NE(script_error(kHeader + "{\"do\": \"undoo\"}").sentence.find("did you mean \"undo\"?"), std::string::npos);
+  EXPECT_EQ(script_error(kHeader + "{\"do\": \"undo\", \"step\": 2}").code, "script.unknown-key");
+  EXPECT_EQ(script_error(kHeader + "{\"do\": \"undo\", \"steps\": -2}").code, "value.range");
+  EXPECT_EQ(script_error(kHeader + "{\"do\": \"export\"}").code, "script.missing-key");
+  EXPECT_EQ(script_error(kHeader + kHeader).code, "script.no-do");
 }
 
 TEST(ParseScript, names_the_broken_line_of_a_long_script) {
@@ -37,7 +37,7 @@ TEST(ParseScript, names_the_broken_line_of_a_long_script) {
   for (int i = 2; i < 1000; ++i)
     text += i % 3 == 0 ? "# a remark\n" : i % 3 == 1 ? "\r\n" : "{\"do\": \"undo\"}\n";
   text += "{\"do\": \"layer.move\", \"by\": [1]}\n{\"do\": \"undo\"}\n";
-  EXPECT_EQ(refusal(text).where, "work.jsonl:1000");
+  EXPECT_EQ(script_error(text).where, "work.jsonl:1000");
 }
 
 TEST(ParseScript, keeps_line_numbers_over_blank_lines_and_remarks) {
