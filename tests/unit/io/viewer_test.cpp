@@ -114,17 +114,24 @@ TEST(Viewer, has_a_thumbnail_of_256_pixels_at_most) {
   }
 }
 
+/// The command that starts ImageMagick, or nothing: other programs are called "convert", too.
+std::string find_image_magick() {
+  for (const char* name : {"convert-im6.q16", "magick", "convert"})
+    if (std::system((std::string(name) + " -version 2> /dev/null | grep -q ImageMagick").c_str()) == 0) return name;
+  return {};
+}
+
 /// ImageMagick, where it is installed: the layers unpacked and laid over each other.
 TEST(Viewer, that_is_image_magick_sees_the_same) {
-  if (std::system("command -v convert > /dev/null && command -v unzip > /dev/null") != 0)
-    GTEST_SKIP() << "needs convert (ImageMagick) and unzip";
+  const std::string magick = find_image_magick();
+  if (magick.empty() || std::system("command -v unzip > /dev/null") != 0) GTEST_SKIP() << "needs ImageMagick and unzip";
   const TempFolder folder;
   for (const Image& target : {rounded(wavy_image(120, 90, 0), 255), translucent_image(120, 90)}) {
     Session session = layered_session(target);
     save(session, folder / "a.ora");
     const auto file = OraFile::open(folder / "a.ora");
     ASSERT_TRUE(file.ok());
-    std::string line = "cd '" + folder.path().string() + "' && unzip -oq a.ora && convert data/background.png";
+    std::string line = "cd '" + folder.path().string() + "' && unzip -oq a.ora && " + magick + " data/background.png";
     for (std::size_t i = 1; i < file->layers().size(); ++i)
       line += " \\( data/layer" + std::to_string(i) + ".png -repage +" + std::to_string(file->layers()[i].rect.x) +
               "+" + std::to_string(file->layers()[i].rect.y) + " \\)";
