@@ -4,6 +4,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -89,7 +90,11 @@ bool EditorUnderTest::start() {
 
 bool EditorUnderTest::rest() {
   // Events are taken in their order: when the last move has been, everything before it has been too.
+  // Inside the window, that is: what moves outside of it is not told.
+  const Json window = map().at("window");
   Point marker = hand_->place();
+  marker.x = std::clamp(marker.x, 1.0, std::max(1.0, window[2].get<double>() - 2));
+  marker.y = std::clamp(marker.y, 1.0, std::max(1.0, window[3].get<double>() - 2));
   marker.x += static_cast<int>(marker.x) % 2 == 0 ? 1 : -1;
   hand_->move(marker);
   return wait_for("rest", [&](const Json& map) {
