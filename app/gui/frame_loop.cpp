@@ -135,12 +135,15 @@ Result<void> FrameLoop::draw() {
   reply_ = {};
   pictures_.begin_frame();
   if (const Tab* tab = editor_.state().tab()) pictures_.update_result(*tab->session);
+  times_.spent_on(FramePart::kUpload);
   imgui_.begin_frame(batch_);
   const DrawContext context = {imgui_.look(), widgets, sink_, reply_, Window::now_s()};
   draw_editor_window(editor_.state(), window_state_, pictures_, to_events(batch_), context);
   window_.set_cursor(reply_.cursor.value_or(imgui_.cursor()));
   window_.set_title(title());
+  times_.spent_on(FramePart::kLayout);
   imgui_.end_frame();
+  times_.spent_on(FramePart::kDraw);
   --frames_due_;
   if (pictures_.wants_frame()) frames_due_ = std::max(frames_due_, 1);
   return write_map(widgets, reply_);
@@ -186,7 +189,9 @@ Result<void> FrameLoop::run() {
   open_what_was_asked();
   while (!ended_) {
     const bool draws = gather();
+    times_.skip();
     editor_.update(reply_.canvases, Window::now_s());
+    times_.spent_on(FramePart::kState);
     if (draws && window_.is_hidden()) {
       // Nothing is seen; keys and clicks do not come either.
       frames_due_ = 0;
@@ -195,11 +200,15 @@ Result<void> FrameLoop::run() {
       if (auto drawn = draw(); !drawn) return drawn;
     }
     carry_out();
+    times_.spent_on(FramePart::kState);
+    if (draws && options_.frame_times) times_.end_frame();
     if (auto settled = settle(); !settled) return settled;
     if (editor_.wants_to_quit()) ended_ = true;
   }
   if (options_.record)
     if (auto recorded = editor_.record_front(*options_.record); !recorded) return recorded;
+  if (options_.frame_times)
+    if (auto written = times_.write(*options_.frame_times); !written) return written;
   if (options_.exit_when_idle && first_problem_) return *first_problem_;
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/frame_times.h"
 #include "app/gui/imgui_layer.h"
 #include "app/gui/options.h"
 #include "app/gui/ui_map.h"
@@ -52,6 +53,7 @@ private:
   Editor editor_;
   WindowState window_state_;
   std::optional<UiMapFile> map_;
+  FrameTimes times_;
   ActionSink sink_;
   std::vector<RawEvent> batch_;
   FrameReply reply_;

@@ -36,6 +36,8 @@ std::variant<Options, int> parse_options(int argc, char** argv) {
                  "Write what was done to the document in front as a script (.jsonl), at the end");
   app.add_option("--ui-map", options.ui_map, "Keep a JSON file of where everything in the window is");
   app.add_option("--screenshot", options.screenshot, "Write the window as a picture (.png) as soon as nothing moves");
+  app.add_option("--frame-times", options.frame_times,
+                 "Write how long the window's thread worked for its frames (.json), at the end");
   app.add_option("--size", size, "Of the window, such as 1280x800")->check([](const std::string& text) {
     return parse_size(text) ? std::string() : "a size is WIDTHxHEIGHT, 64 to 16384 each: " + text;
   });

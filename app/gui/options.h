@@ -18,6 +18,7 @@ struct Options {
   std::optional<std::filesystem::path> record;
   std::optional<std::filesystem::path> ui_map;
   std::optional<std::filesystem::path> screenshot;
+  std::optional<std::filesystem::path> frame_times;
   WindowSize size = {1440, 900};
   /// In place of the display's own scale.
   std::optional<float> scale;
