@@ -3,6 +3,7 @@
 #include "ui/panels/dialog_host.h"
 #include "ui/panels/empty_state.h"
 #include "ui/panels/menu_bar.h"
+#include "ui/panels/recovery_bar.h"
 #include "ui/panels/side_panel.h"
 #include "ui/panels/status_bar.h"
 #include "ui/panels/tab_bar.h"
@@ -30,9 +31,16 @@ struct Frame {
   Pictures& pictures;
   const InputEvents& events;
   const DrawContext& context;
+  RecoveryBarModel recovery;
   WindowLayout layout;
   EntryContext entries;
 };
+
+/// A document that holds nothing yet, and is not being opened, offers the same as no document.
+bool shows_empty_state(const EditorState& state, const Snapshot* snapshot) {
+  const Tab* tab = state.tab();
+  return tab == nullptr || (snapshot->document.empty() && !tab->session->activity().busy);
+}
 
 /// A part of the window as a child with its own clipping.
 template <class Draw>
@@ -46,13 +54,15 @@ void draw_area(const char* name, const Area& area, ImGuiWindowFlags flags, const
   ImGui::EndChild();
 }
 
-WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, const DrawContext& context) {
+WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, bool offer,
+                     const DrawContext& context) {
   return lay_out_window({.size = ImGui::GetIO().DisplaySize,
                          .scale = context.look.scale,
                          .side_width = parts.side_width,
                          .side = parts.flags.side_panel && !state.tabs.empty(),
                          .side_over = parts.flags.side_over && !state.tabs.empty(),
-                         .tabs = !state.tabs.empty()});
+                         .tabs = !state.tabs.empty(),
+                         .offer = offer});
 }
 
 std::optional<PointerPlace> find_pointer(const EditorState& state, const DrawContext& context) {
@@ -89,10 +99,8 @@ void draw_side_edge(Frame& frame) {
 void draw_middle(Frame& frame) {
   const ThemeLook& look = frame.context.look;
   const Area& area = frame.layout.canvases;
-  // A document that holds nothing yet, and is not being opened, offers the same as no document.
-  const Tab* tab = frame.state.tab();
-  const bool empty = tab == nullptr || (frame.snapshot->document.empty() && !tab->session->activity().busy);
-  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, empty ? look.window : look.canvas);
+  const bool empty = shows_empty_state(frame.state, frame.snapshot.get());
+  ImGui::GetWindowDrawList()->AddRectFilled(area.low, area.high, empty ? look.panel : look.canvas);
   if (empty)
     draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
   else
@@ -118,6 +126,13 @@ InputEvents canvas_events(const InputEvents& events, bool dialog, bool dialog_be
   return {lost};
 }
 
+/// What there is to do next, or what the tool in hand does.
+std::string_view status_hint(const Frame& frame) {
+  if (frame.snapshot != nullptr && frame.snapshot->document.layers.empty())
+    return "Add the picture that the part comes from: Layer, Add source image, or drop it on this one";
+  return tool_summary(frame.state.tool);
+}
+
 void draw_status(Frame& frame) {
   const Tab* tab = frame.state.tab();
   const auto pointer = find_pointer(frame.state, frame.context);
@@ -125,7 +140,8 @@ void draw_status(Frame& frame) {
   const double now = frame.context.now_s;
   const StatusModel model = make_status_model(frame.state, frame.snapshot.get(),
                                               tab != nullptr ? tab->session->activity() : LiveSession::Activity(),
-                                              pointer, tool_summary(frame.state.tool), now);
+                                              pointer, status_hint(frame), now);
+  frame.context.reply.status = model.line;
   if (model.said) frame.context.reply.ask_frame_at(frame.state.said_until);
   draw_area("##status", frame.layout.status, 0, [&] { draw_status_bar(model, frame.layout.status, frame.context); });
 }
@@ -136,6 +152,9 @@ void draw_parts(Frame& frame) {
     draw_area("##tabs", frame.layout.tabs, 0,
               [&] { draw_tab_bar(make_tab_bar_model(frame.state), frame.layout.tabs, frame.context); });
   draw_strip(frame);
+  if (!frame.layout.offer.empty())
+    draw_area("##recovery", frame.layout.offer, 0,
+              [&] { draw_recovery_bar(frame.recovery, frame.layout.offer, frame.context); });
   draw_middle(frame);
   draw_status(frame);
   if (!frame.layout.side.empty())
@@ -152,13 +171,15 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   const bool dialog = has_dialog(state, parts);
   const auto snapshot = state.tab() == nullptr ? nullptr : state.tab()->session->snapshot();
   const InputEvents for_canvases = canvas_events(events, dialog, parts.dialog_open);
+  const RecoveryBarModel recovery = make_recovery_bar_model(state, !shows_empty_state(state, snapshot.get()));
   Frame frame{state,
               snapshot,
               parts,
               pictures,
               events,
               context,
-              lay_out(state, parts, context),
+              recovery,
+              lay_out(state, parts, recovery.documents > 0, context),
               {state, snapshot.get(), parts.flags, context.sink}};
   parts.flags.narrow = frame.layout.narrow;
   // Nor is anything undone or saved under a hand that is drawing.

@@ -22,6 +22,12 @@ LoadedPreferences load_user_preferences() {
   return load_preferences(settings_path());
 }
 
+/// Without a home nothing is kept against a crash.
+std::filesystem::path find_state_folder() {
+  const auto folder = default_state_folder();
+  return folder ? *folder : std::filesystem::path();
+}
+
 } // namespace
 
 FrameLoop::FrameLoop(Options options, std::filesystem::path assets, Window& window)
@@ -37,7 +43,8 @@ FrameLoop::FrameLoop(Options options, std::filesystem::path assets, Window& wind
                      changed_ = true;
                      Window::wake();
                    },
-               .keep_preferences = [this](const Preferences& p) { keeper_.keep(p); }}),
+               .keep_preferences = [this](const Preferences& p) { keeper_.keep(p); },
+               .state_folder = find_state_folder()}),
       window_state_(
           [this] {
             changed_ = true;
@@ -126,7 +133,8 @@ void FrameLoop::carry_out() {
 std::string FrameLoop::title() const {
   const Tab* tab = editor_.state().tab();
   if (tab == nullptr) return "Oversketch";
-  return tab->name + (tab->session->snapshot()->modified ? " *" : "") + " – Oversketch";
+  return tab->name + (tab->read_only ? " (read only)" : "") + (tab->session->snapshot()->modified ? " *" : "") +
+         " – Oversketch";
 }
 
 Result<void> FrameLoop::draw() {
@@ -156,7 +164,7 @@ Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& re
   const ShownFrame frame = {.widgets = widgets,
                             .canvases = reply.canvases,
                             .title = title(),
-                            .status = state.said_until > Window::now_s() ? state.said : reply.status,
+                            .status = reply.status,
                             .busy = editor_.busy() || frames_due_ > 0 || !sink_.pending().empty() ||
                                     !window_.input().empty(),
                             .wants_text = ImGui::GetIO().WantTextInput,
@@ -209,6 +217,7 @@ Result<void> FrameLoop::run() {
     if (auto recorded = editor_.record_front(*options_.record); !recorded) return recorded;
   if (options_.frame_times)
     if (auto written = times_.write(*options_.frame_times); !written) return written;
+  editor_.leave();
   if (options_.exit_when_idle && first_problem_) return *first_problem_;
   return {};
 }

@@ -42,6 +42,10 @@ public:
   History() = default;
   explicit History(Limits limits) : limits_(limits) {}
 
+  const Limits& limits() const { return limits_; }
+  /// From the next step on.
+  void set_limits(const Limits& limits) { limits_ = limits; }
+
   /// The document at the cursor; an empty one before the first command.
   const Document& present() const;
   const std::vector<Entry>& entries() const { return entries_; }

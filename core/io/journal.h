@@ -90,6 +90,9 @@ struct RecoveredJournal {
 Result<RecoveredJournal> recover_journal(const std::filesystem::path& folder, const IoLimits& limits = {},
                                          const Watch& watch = {});
 
+/// Removes one that nobody wants; nothing where its process lives.
+void discard_abandoned_journal(const std::filesystem::path& folder);
+
 /// Removes journals of dead processes that were last changed more than `age` before `now`; returns how many.
 int remove_old_journals(const std::filesystem::path& state_folder, std::chrono::system_clock::time_point now,
                         std::chrono::hours age = std::chrono::hours(7 * 24));

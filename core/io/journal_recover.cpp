@@ -176,6 +176,15 @@ std::vector<AbandonedJournal> list_abandoned_journals(const fs::path& state_fold
   return found;
 }
 
+void discard_abandoned_journal(const fs::path& folder) {
+  const OpenFile lock = take_journal_lock(folder, false);
+  if (!lock.open()) return;
+  std::error_code ignored;
+  // The script first: what is left when this is cut short is no journal.
+  fs::remove(folder / kJournalFile, ignored);
+  fs::remove_all(folder, ignored);
+}
+
 int remove_old_journals(const fs::path& state_folder, std::chrono::system_clock::time_point now,
                         std::chrono::hours age) {
   int removed = 0;

@@ -4,8 +4,10 @@
 
 namespace oversketch {
 
-JournalWriter::JournalWriter(Journal journal)
-    : journal_(std::move(journal)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+JournalWriter::JournalWriter(Journal journal, std::function<void(const Error&)> on_problem)
+    : journal_(std::move(journal)),
+      on_problem_(std::move(on_problem)),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 JournalWriter::~JournalWriter() = default;
 
@@ -57,6 +59,11 @@ void JournalWriter::work(const std::stop_token& stop) {
       done = Error{"memory", problem.what(), ""};
     }
     lock.lock();
+    if (!done && !problem_ && on_problem_) {
+      lock.unlock();
+      on_problem_(done.error());
+      lock.lock();
+    }
     problem_ = done.ok() ? std::nullopt : std::optional(done.error());
     writing_ = false;
     changed_.notify_all();

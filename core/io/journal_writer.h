@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -15,7 +16,8 @@ namespace oversketch {
 /// @threads calls may be made from any thread, in the order of the steps.
 class JournalWriter {
 public:
-  explicit JournalWriter(Journal journal);
+  /// @param on_problem  called from that thread when a line could not be written, once until one could; must be quick.
+  explicit JournalWriter(Journal journal, std::function<void(const Error&)> on_problem = {});
   /// Writes what waits first.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
@@ -38,6 +40,7 @@ private:
   void work(const std::stop_token& stop);
 
   Journal journal_;
+  std::function<void(const Error&)> on_problem_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Line> waiting_;

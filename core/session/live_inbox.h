@@ -37,6 +37,9 @@ struct Run {
   LiveSession::Job job;
   std::function<void(const Result<void>&)> done;
 };
+struct LimitHistory {
+  History::Limits limits;
+};
 /// What is shown besides the document.
 struct View {
   LiveSession::Compare compare = LiveSession::Compare::kOff;
@@ -45,7 +48,7 @@ struct View {
   bool operator==(const View&) const = default;
 };
 
-using Request = std::variant<Execute, Preview, Commit, Abandon, Undo, Redo, Jump, Run, View>;
+using Request = std::variant<Execute, Preview, Commit, Abandon, Undo, Redo, Jump, Run, LimitHistory, View>;
 
 /// The requests that wait, newest previews first in their own turn, and the tokens that stop the work in hand.
 /// @threads post(), cancel() and close() from any; the rest from the worker.

@@ -1,11 +1,13 @@
 #include "core/session/live_session.h"
 
 #include "core/session/live_alternatives.h"
+#include "core/session/live_bleed.h"
 #include "core/session/live_inbox.h"
 #include "core/session/live_picture.h"
 #include "core/session/live_snapshot.h"
 #include "core/session/picture_loader.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <thread>
@@ -54,6 +56,7 @@ void merge(PictureUpdate& waiting, PictureUpdate newer) {
 
 struct LiveSession::State {
   std::function<void()> on_change;
+  std::function<void(const Session&)> on_served;
   live::Inbox inbox;
 
   /// Guards what follows it.
@@ -93,9 +96,14 @@ struct LiveSession::State {
   Result<void> carry_out(live::Redo& request, const Watch&) { return session.redo(request.steps); }
   Result<void> carry_out(live::Jump& request, const Watch&) { return session.jump(request.entry); }
   Result<void> carry_out(live::Run& request, const Watch& watch);
+  Result<void> carry_out(live::LimitHistory& request, const Watch&) {
+    session.limit_history(request.limits);
+    return {};
+  }
   Result<void> carry_out(live::View& request, const Watch&);
   void show(live::Quality quality, const std::stop_token& stop);
-  Result<void> paint(live::Quality quality, const Watch& watch, PictureUpdate& changed);
+  Result<void> paint(live::Quality quality, const Watch& watch, PictureUpdate& changed, std::vector<DrawnLayer>& drawn);
+  void add_bleed(const std::vector<DrawnLayer>& drawn, Snapshot& made) const;
   std::optional<Layer> compared_layer() const;
   Result<void> compare(live::Quality quality, Snapshot& made, const Watch& watch);
   void refuse(Error error);
@@ -105,8 +113,10 @@ struct LiveSession::State {
   Watch watch_of(std::stop_token stop);
 };
 
-LiveSession::LiveSession(std::function<void()> on_change) : state_(std::make_unique<State>()) {
+LiveSession::LiveSession(std::function<void()> on_change, std::function<void(const Session&)> on_served)
+    : state_(std::make_unique<State>()) {
   state_->on_change = std::move(on_change);
+  state_->on_served = std::move(on_served);
   state_->worker = std::thread([state = state_.get()] { state->work(); });
 }
 
@@ -154,6 +164,9 @@ void LiveSession::jump(std::size_t entry) {
 }
 void LiveSession::run(std::string label, Job job, std::function<void(const Result<void>&)> done) {
   state_->post(live::Run{std::move(label), std::move(job), std::move(done)});
+}
+void LiveSession::limit_history(const History::Limits& limits) {
+  state_->post(live::LimitHistory{limits});
 }
 void LiveSession::show_compare(Compare compare) {
   state_->post_view([&](live::View& view) { view.compare = compare; });
@@ -224,6 +237,8 @@ Watch LiveSession::State::watch_of(std::stop_token stop) {
 void LiveSession::State::serve(live::Request& request) {
   const Watch watch = watch_of(inbox.serving());
   auto outcome = guarded([&] { return std::visit([&](auto& one) { return carry_out(one, watch); }, request); });
+  const bool only_shown = std::holds_alternative<live::Preview>(request) || std::holds_alternative<live::View>(request);
+  if (on_served && !only_shown) on_served(session);
   // A preview is stopped by giving up its gesture: that is no news.
   if (outcome || (outcome.error() == cancelled() && std::holds_alternative<live::Preview>(request))) return;
   refuse(outcome.error());
@@ -277,7 +292,8 @@ Result<void> LiveSession::State::carry_out(live::View& request, const Watch&) {
 void LiveSession::State::show(live::Quality quality, const std::stop_token& stop) {
   const Watch watch = watch_of(stop);
   PictureUpdate changed;
-  const auto painted = guarded([&] { return paint(quality, watch, changed); });
+  std::vector<DrawnLayer> drawn;
+  const auto painted = guarded([&] { return paint(quality, watch, changed, drawn); });
   if (!painted && painted.error() != cancelled()) refuse(painted.error());
   const bool rested = quality == live::Quality::kRest && painted;
   Snapshot made = snapshots.make(session, rested, watch);
@@ -286,6 +302,7 @@ void LiveSession::State::show(live::Quality quality, const std::stop_token& stop
       layer.mask_ms = timing->mask_ms;
       layer.blend_ms = timing->blend_ms;
     }
+  add_bleed(drawn, made);
   if (const auto compared = guarded([&] { return compare(quality, made, watch); });
       !compared && compared.error() != cancelled())
     refuse(compared.error());
@@ -296,10 +313,22 @@ void LiveSession::State::show(live::Quality quality, const std::stop_token& stop
   last_shown = Clock::now();
 }
 
-Result<void> LiveSession::State::paint(live::Quality quality, const Watch& watch, PictureUpdate& changed) {
-  const auto layers = session.drawn_layers(nullptr, watch);
+Result<void> LiveSession::State::paint(live::Quality quality, const Watch& watch, PictureUpdate& changed,
+                                       std::vector<DrawnLayer>& drawn) {
+  auto layers = session.drawn_layers(nullptr, watch);
   if (!layers) return layers.error();
-  return picture.paint(snapshots.show(session.shown().target.image).pixels, *layers, quality, watch, changed);
+  drawn = std::move(*layers);
+  return picture.paint(snapshots.show(session.shown().target.image).pixels, drawn, quality, watch, changed);
+}
+
+void LiveSession::State::add_bleed(const std::vector<DrawnLayer>& drawn, Snapshot& made) const {
+  const Document& shown = made.document;
+  const Layer* selected = shown.selected ? shown.find(*shown.selected) : nullptr;
+  if (selected == nullptr) return;
+  const auto layer = std::ranges::find(made.layers, selected->id, &LayerSnapshot::id);
+  const auto part = std::ranges::find(drawn, selected->id, &DrawnLayer::id);
+  if (layer == made.layers.end() || part == drawn.end() || layer->deformation == nullptr) return;
+  layer->bleed = live::forecast_layer(shown.target.image, *selected, *layer->deformation, *part);
 }
 
 /// The selected layer, as the comparison takes it.

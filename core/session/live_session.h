@@ -20,7 +20,8 @@ namespace oversketch {
 class LiveSession {
 public:
   /// @param on_change  called from the worker when there is something new to show; must be quick and call nothing here.
-  explicit LiveSession(std::function<void()> on_change = {});
+  /// @param on_served  called from the worker after each request that can have changed the document or its log.
+  explicit LiveSession(std::function<void()> on_change = {}, std::function<void(const Session&)> on_served = {});
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
@@ -43,6 +44,9 @@ public:
   /// (may be empty) is called on the worker with what came out.
   using Job = std::function<Result<void>(Session&, const Watch&)>;
   void run(std::string label, Job job, std::function<void(const Result<void>&)> done = {});
+
+  /// See Session.
+  void limit_history(const History::Limits& limits);
 
   /// Stops the work in hand; the document stays as it was before it.
   void cancel();

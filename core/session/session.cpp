@@ -91,7 +91,10 @@ Result<Session::Pending> Session::prepare(const Command& command, const Watch& w
 }
 
 void Session::take(Pending pending) {
-  if (std::holds_alternative<DocumentNew>(pending.command)) log_.clear();
+  if (std::holds_alternative<DocumentNew>(pending.command)) {
+    log_.clear();
+    ++log_number_;
+  }
   log_.push_back(pending.command);
   std::string label = label_of(pending.command, document(), pending.document);
   history_.push(std::move(pending.document), pending.command, std::move(label));
@@ -169,15 +172,6 @@ Result<void> Session::jump(std::size_t entry) {
   if (entry > cursor) return redo(entry - cursor);
   pending_.reset();
   return {};
-}
-
-void Session::adopt(Session other) {
-  pending_ = std::move(other.pending_);
-  history_ = std::move(other.history_);
-  log_ = std::move(other.log_);
-  solves_ = std::move(other.solves_);
-  caches_ = std::move(other.caches_);
-  counters_ += other.counters_;
 }
 
 Result<std::shared_ptr<const DeformSystem>> Session::system_of(const Layer& layer, const Watch& watch) {

@@ -76,7 +76,10 @@ public:
   /// To that entry of the history: the undo or redo steps that lead there.
   Result<void> jump(std::size_t entry);
   void mark_saved() { history_.mark_saved(); }
-  /// Takes over the document, history and log of another session; the counters add up.
+  /// From the next step on.
+  void limit_history(const History::Limits& limits) { history_.set_limits(limits); }
+  /// Takes over the document, history and log of another session; the counters add up, the limits of the history stay
+  /// this one's.
   void adopt(Session other);
 
   /// What a project file needs; solving it anew gives the same bits.  @cost O(steps kept); pictures are shared.
@@ -88,6 +91,8 @@ public:
   /// Every command, undo and redo since the document was begun: replaying it gives this document and this history.
   /// After restore() of a history that had lost its beginning: since then.
   const std::vector<Step>& log() const { return log_; }
+  /// Another one whenever log() is not the one before with more behind it: another document is there.
+  std::uint64_t log_number() const { return log_number_; }
 
   /// The layer's deformed region, in its own space; apply the placement for target pixels.
   /// @errors layer.unknown, layer.no-region, those of the solvers, cancelled.
@@ -153,6 +158,7 @@ private:
   std::optional<Pending> pending_;
   Counters counters_;
   std::vector<Step> log_;
+  std::uint64_t log_number_ = 0;
   /// By the id of the history entry.
   std::map<std::uint64_t, Solves> solves_;
   std::unique_ptr<Caches> caches_;

@@ -128,4 +128,15 @@ Result<Session> Session::restore(SavedSession saved, History::Limits limits) {
   return session;
 }
 
+void Session::adopt(Session other) {
+  pending_ = std::move(other.pending_);
+  other.history_.set_limits(history_.limits());
+  history_ = std::move(other.history_);
+  log_ = std::move(other.log_);
+  ++log_number_;
+  solves_ = std::move(other.solves_);
+  caches_.swap(other.caches_);
+  counters_ += other.counters_;
+}
+
 } // namespace oversketch

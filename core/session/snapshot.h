@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/clone/bleed.h"
 #include "core/deform/deformation.h"
 #include "core/document/command.h"
 #include "core/document/document.h"
@@ -30,6 +31,8 @@ struct LayerSnapshot {
   /// In the layer's own space: the placement puts it into the target.  Null while there is no region.
   std::shared_ptr<const Deformation> deformation;
   std::optional<Metrics> metrics;
+  /// Of the selected layer: how its colours differ from the target's along the boundary, in target pixels.
+  std::shared_ptr<const BleedForecast> bleed;
   /// Of the last painting on the screen: what depends on the mask alone, and one move.
   double mask_ms = 0;
   double blend_ms = 0;

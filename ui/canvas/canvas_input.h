@@ -44,6 +44,10 @@ public:
   const View& view(Side side) const { return views_[static_cast<std::size_t>(side)]; }
   ToolDrawing draw(const CanvasFrame& frame) const;
   std::optional<CursorShape> cursor(const CanvasFrame& frame, const ToolDrawing& drawing) const;
+  /// The pointer is on the splitter or drags it.
+  bool over_splitter(const CanvasFrame& frame) const {
+    return hold_ == Hold::kSplitter || (hold_ == Hold::kNone && frame.mouse_free && on_splitter(pointer_, frame));
+  }
   /// A drag is under way.
   bool held() const { return hold_ != Hold::kNone; }
 

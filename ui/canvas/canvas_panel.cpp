@@ -2,6 +2,7 @@
 
 #include "core/base/hash.h"
 #include "ui/canvas/tool_paint.h"
+#include "ui/widgets/item.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +46,14 @@ bool has_source_canvas(const Document& document) {
   return layer != nullptr && !(layer->source.image == document.target.image);
 }
 
-std::string caption(const char* side, const std::string& name, double zoom) {
+/// Which canvas it is, how near, and of which picture: the last is what can be done without.
+std::vector<std::string> caption(const char* side, const std::string& name, double zoom) {
   const double percent = 100 * zoom;
   const std::string number =
       percent < 10 ? std::to_string(std::round(percent * 10) / 10).substr(0, 3) : std::to_string(std::lround(percent));
-  const std::string file = std::filesystem::path(name).filename().string();
-  return std::string(side) + (file.empty() ? "" : " · " + file) + " · " + number + " %";
+  std::vector<std::string> parts = {side, number + " %"};
+  if (const std::string file = std::filesystem::path(name).filename().string(); !file.empty()) parts.push_back(file);
+  return parts;
 }
 
 CanvasPaint paint_of(const Scene& scene, const Box& box, Side side) {
@@ -90,6 +93,10 @@ void draw_compared(const Scene& scene, const CanvasPaint& paint) {
     scene.list.AddTriangleFilled({x + way * look.px(6.5f), y}, {x + way * look.px(2), y - look.px(4)},
                                  {x + way * look.px(2), y + look.px(4)}, look.curve_halo | IM_COL32_A_MASK);
   scene.context.widgets.add("canvas.compare", {x - r, y - r, 2 * r, 2 * r});
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  tip_at_rest(scene.context, "canvas.compare",
+              std::hypot(mouse.x - x, mouse.y - y) <= r && !scene.canvases.input.held(),
+              {"Drag: left of the line is the result, right of it what it is compared with.", {}});
 }
 
 void draw_layer_overlays(const Scene& scene, const CanvasPaint& paint, Side side) {
@@ -106,6 +113,7 @@ void draw_source(const Scene& scene, const Box& box, const ToolDrawing& drawing)
   draw_layer_overlays(scene, paint, Side::kSource);
   draw_tool(paint, Side::kSource, drawing);
   if (scene.layer != nullptr) draw_caption(paint, caption("Source", scene.layer->source.name, paint.view.zoom));
+  if (scene.state.overlays.shown && drawing.hint_side == Side::kSource) draw_hint(paint, drawing.hint);
   scene.list.PopClipRect();
 }
 
@@ -122,14 +130,29 @@ void draw_target(const Scene& scene, const Box& box, bool one_canvas, const Tool
   if (!scene.snapshot.document.empty())
     draw_caption(paint, caption(one_canvas && scene.layer != nullptr ? "Source and target" : "Target",
                                 scene.snapshot.document.target.name, paint.view.zoom));
-  if (scene.state.overlays.shown) draw_hint(paint, drawing.hint);
+  const bool derived = scene.derived != nullptr && scene.derived->deformation != nullptr;
+  if (!scene.tab.view.before_held) draw_legends(paint, list_legends(scene.state.overlays, derived));
+  if (scene.state.overlays.shown && (one_canvas || drawing.hint_side == Side::kTarget)) draw_hint(paint, drawing.hint);
   scene.list.PopClipRect();
 }
 
-/// Each pin's two ends joined, as far as both can be seen.
+/// A bar with a grip, that lights up under the pointer.
+void draw_splitter(const Scene& scene, const Box& box, bool over) {
+  const ThemeLook& look = scene.context.look;
+  const ImVec2 low = to_imgui(box.low), high = to_imgui(box.high);
+  scene.list.AddRectFilled(low, high, over ? look.accent : look.panel);
+  const float x = std::round((low.x + high.x) / 2), y = std::round((low.y + high.y) / 2);
+  for (const float step : {-8.0f, 0.0f, 8.0f})
+    scene.list.AddCircleFilled({x, y + look.px(step)}, look.px(1.5f), over ? look.accent_ink : look.ink_quiet);
+  tip_at_rest(scene.context, "canvas.splitter", over && !scene.canvases.input.held(),
+              {"Drag to share the width between the two pictures.", {}});
+}
+
+/// The two ends of the selected pin joined, of all with the Pin tool in hand, as far as both can be seen.
 void draw_pin_links(const Scene& scene, const CanvasLayout& layout) {
   const Overlays& shown = scene.state.overlays;
   if (scene.layer == nullptr || !shown.shown || !shown.pins || scene.tab.view.before_held) return;
+  const bool all = scene.state.tool == Tool::kPin;
   const CanvasPaint target = paint_of(scene, layout.target, Side::kTarget);
   const CanvasPaint source = layout.source ? paint_of(scene, *layout.source, Side::kSource) : target;
   const Similarity placed = scene.layer->placement.to_target();
@@ -137,6 +160,8 @@ void draw_pin_links(const Scene& scene, const CanvasLayout& layout) {
     const ImVec2 from = source.at(pin.outline), to = target.at(placed(pin.sketch));
     if (!source.shows(from, 0) || !target.shows(to, 0)) continue;
     const bool selected = scene.tab.view.selected_pin == pin.id;
+    // Lines across both pictures are in the way of everything else.
+    if (!all && !selected) continue;
     const PackedColor color = fraction_color(outline_fraction(scene.layer->outline, pin.outline));
     scene.list.AddLine(from, to, faded(scene.context.look.curve_halo, selected ? 1.0f : 0.4f),
                        scene.context.look.px(selected ? 3.5f : 2.5f));
@@ -194,8 +219,7 @@ void draw_document(const EditorState& state, const Tab& tab, CanvasesState& canv
                     list,     layer,    layer != nullptr ? snapshot->find(layer->id) : nullptr};
   if (frame.layout.source) draw_source(scene, *frame.layout.source, drawing);
   draw_target(scene, frame.layout.target, !frame.layout.source, drawing);
-  if (frame.layout.splitter)
-    list.AddRectFilled(to_imgui(frame.layout.splitter->low), to_imgui(frame.layout.splitter->high), context.look.line);
+  if (frame.layout.splitter) draw_splitter(scene, *frame.layout.splitter, canvases.input.over_splitter(frame));
   draw_pin_links(scene, frame.layout);
 }
 

@@ -188,13 +188,18 @@ Point CurveTool::picture_size(const Document& document) const {
 ToolDrawing CurveTool::draw(const ToolContext& context) const {
   ToolDrawing drawing;
   drawing.cursor = CursorShape::kCross;
+  drawing.hint_side = side_;
   const Layer* layer = selected_layer(gesture_.base(context.snapshot));
   const bool has_curve = layer != nullptr && !layer->outline.empty();
   if (!busy()) {
-    if (layer != nullptr)
+    if (layer == nullptr) {
+      drawing.hint = kNoLayerHint;
+      drawing.hint_side = Side::kTarget;
+    } else {
       drawing.hint = has_curve ? "Draw over a part to change it  [X] other side  [Alt] sharp ends  [Esc] cancel"
                      : side_ == Side::kSource ? "Draw round the part that you want; the line closes itself"
-                                              : "Outline the part in the source picture first";
+                                              : kNoOutlineHint;
+    }
     return drawing;
   }
   Points drawn = corners_;

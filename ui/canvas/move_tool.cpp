@@ -242,7 +242,7 @@ ToolDrawing MoveTool::draw(const ToolContext& context) const {
   const Layer* layer = busy() && layer_ ? shown.find(*layer_) : selected_layer(shown);
   const auto frame = layer != nullptr ? frame_of(*layer) : std::nullopt;
   if (!frame) {
-    drawing.hint = layer != nullptr ? "Outline the part in the source picture first" : "";
+    drawing.hint = layer == nullptr ? kNoLayerHint : kNoOutlineHint;
     return drawing;
   }
   drawing.lines.push_back({Side::kTarget, ToolLine::Kind::kFrame, Points(frame->begin(), frame->end()), true});
@@ -251,8 +251,9 @@ ToolDrawing MoveTool::draw(const ToolContext& context) const {
   const Drag kind = drag_ != Drag::kNone ? drag_ : grip_at(pointer_, context).drag;
   if (kind == Drag::kTurn && pointer_side_ == Side::kTarget)
     drawing.marks.push_back({Side::kTarget, ToolMark::Kind::kTurn, pointer_});
-  drawing.hint = drag_ == Drag::kNone ? "Drag to move  corners scale  outside turns  [Shift] constrains"
-                                      : "[Shift] constrains  [Esc] cancel";
+  drawing.hint = drag_ == Drag::kNone
+                     ? "Drag to move, corners to scale, outside to turn  [Shift] constrains  [Arrows] 1 px"
+                     : "[Shift] constrains  [Esc] cancel";
   return drawing;
 }
 

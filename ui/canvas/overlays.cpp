@@ -2,6 +2,7 @@
 
 #include "core/geometry/curve.h"
 #include "ui/canvas/pin_tool.h"
+#include "ui/canvas/tool_paint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,9 @@ namespace {
 /// screen, so that both sides have the same ones and the larger one more.  Design px.
 constexpr int kFewestDots = 24, kMostDots = 768;
 constexpr double kDotSpacing = 12;
+
+/// A mismatch that is as alarming as can be, 8-bit levels.
+constexpr float kBleedScale = 100;
 
 /// How many times their length gradients are drawn.
 constexpr double kGradientScale = 10;
@@ -100,6 +104,29 @@ void draw_correspondence(const CanvasPaint& paint, Side side, const OverlayScene
     paint.dot(points[i], fraction_color(places.fractions[i]), 2.5f);
 }
 
+/// Along the boundary, where the part is: as wide as to be told from the curve that it lies on.
+void draw_bleed(const CanvasPaint& paint, const OverlayScene& scene) {
+  const auto& samples = scene.derived->bleed->samples;
+  if (samples.size() < 3) return;
+  // No more pieces than the screen can tell apart.
+  const double spacing = samples.back().s / static_cast<double>(samples.size() - 1) * paint.view.zoom;
+  const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(2 / std::max(spacing, 1e-3))));
+  const auto at = [&](std::size_t i) { return paint.at(samples[i % samples.size()].at); };
+  std::vector<ImVec2> ends;
+  std::vector<PackedColor> colors;
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    ends.push_back(at(i));
+    ends.push_back(at(std::min(i + step, samples.size())));
+    float worst = 0;
+    for (std::size_t k = i; k < std::min(i + step, samples.size()); ++k)
+      worst = std::max(worst, samples[k].norm);
+    colors.push_back(heat_color(worst / kBleedScale));
+  }
+  draw_line_pairs(paint, ends, faded(paint.look.curve_halo, 0.8f), paint.look.px(7));
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    draw_line_pairs(paint, std::span(ends).subspan(2 * i, 2), colors[i], paint.look.px(4.5f));
+}
+
 void draw_pins(const CanvasPaint& paint, Side side, const OverlayScene& scene) {
   const Similarity placed = scene.layer.placement.to_target();
   for (const Pin& pin : scene.layer.pins) {
@@ -139,10 +166,48 @@ void draw_overlays(const CanvasPaint& paint, Side side, const OverlayScene& scen
   const bool derived = scene.derived != nullptr && scene.derived->deformation != nullptr;
   if (derived) draw_meshes(paint, side, scene, cache);
   if (shown.curves) paint.haloed_line(curve_on(scene.layer, side), true, paint.look.curve, 1.5f);
+  if (derived && shown.bleed && side == Side::kTarget && scene.derived->bleed != nullptr) draw_bleed(paint, scene);
   if (derived && shown.correspondence) draw_correspondence(paint, side, scene);
   if (derived && shown.handles) draw_handles(paint, side, scene);
   if (derived && shown.gradients && side == Side::kTarget) draw_gradients(paint, scene);
   if (shown.pins) draw_pins(paint, side, scene);
+}
+
+std::vector<Legend> list_legends(const Overlays& shown, bool derived) {
+  std::vector<Legend> legends;
+  if (!shown.shown || !derived) return legends;
+  if (shown.heat_sigma) legends.push_back({"Distortion σ1/σ2", "1", "2 and more"});
+  if (shown.heat_area) legends.push_back({"Change of area", "none", "4 times"});
+  if (shown.bleed)
+    legends.push_back({"Colour mismatch", "0", std::to_string(static_cast<int>(kBleedScale)) + " levels"});
+  return legends;
+}
+
+void draw_legends(const CanvasPaint& paint, std::span<const Legend> legends) {
+  const ThemeLook& look = paint.look;
+  const float pad = look.px(10), margin = look.px(10), bar = look.px(8), line = ImGui::GetTextLineHeight();
+  const float width = look.px(190), height = line + look.px(5) + bar + look.px(4) + line + 2 * look.px(7);
+  float y = paint.corner.y + margin;
+  for (const Legend& legend : legends) {
+    const ImVec2 low{paint.end.x - margin - width, y}, high{paint.end.x - margin, y + height};
+    // Below the caption where both do not fit side by side.
+    if (low.x < paint.corner.x + margin || high.y > paint.end.y - margin) return;
+    draw_plate(paint, low, high);
+    const float left = low.x + pad, right = high.x - pad;
+    float top = low.y + look.px(7);
+    draw_plate_text(paint, {left, top}, legend.title);
+    top += line + look.px(5);
+    constexpr int kPieces = 24;
+    for (int i = 0; i < kPieces; ++i) {
+      const float from = left + (right - left) * static_cast<float>(i) / kPieces;
+      const float to = left + (right - left) * static_cast<float>(i + 1) / kPieces;
+      paint.list.AddRectFilled({from, top}, {to, top + bar}, heat_color((i + 0.5) / kPieces));
+    }
+    top += bar + look.px(4);
+    draw_plate_text(paint, {left, top}, legend.low);
+    draw_plate_text(paint, {right - ImGui::CalcTextSize(legend.high.c_str()).x, top}, legend.high);
+    y = high.y + look.px(6);
+  }
 }
 
 } // namespace oversketch

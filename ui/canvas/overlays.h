@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace oversketch {
@@ -31,6 +32,19 @@ struct OverlayCache {
 /// become of it.
 /// @cost below 4 ms for 20,000 cells; what lies outside the canvas costs next to nothing.
 void draw_overlays(const CanvasPaint& paint, Side side, const OverlayScene& scene, OverlayCache& cache);
+
+/// What the colours of an overlay mean.
+struct Legend {
+  std::string title;
+  /// Of the calm end and the alarming one.
+  std::string low;
+  std::string high;
+};
+/// Of the overlays that colour by a value.
+std::vector<Legend> list_legends(const Overlays& shown, bool derived);
+
+/// Legends below each other at the canvas's upper right corner; those that do not fit are left out.
+void draw_legends(const CanvasPaint& paint, std::span<const Legend> legends);
 
 /// Places on the outline with the places of the sketch that they are matched with.
 struct MatchedPlaces {

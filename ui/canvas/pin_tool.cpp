@@ -155,7 +155,7 @@ ToolDrawing PinTool::draw(const ToolContext& context) const {
   ToolDrawing drawing;
   const Layer* layer = selected_layer(context.snapshot.document);
   if (layer == nullptr || layer->outline.empty()) {
-    drawing.hint = layer == nullptr ? "" : "Outline the part in the source picture first";
+    drawing.hint = layer == nullptr ? kNoLayerHint : kNoOutlineHint;
     return drawing;
   }
   const auto mark = [&](ToolMark::Kind kind, Side side, Point at, double fraction) {
@@ -164,6 +164,7 @@ ToolDrawing PinTool::draw(const ToolContext& context) const {
   if (drag_) {
     drawing.cursor = CursorShape::kGrab;
     drawing.hint = "Drag along the curve  [Esc] cancel";
+    drawing.hint_side = drag_->side;
     return drawing;
   }
   const auto end = nearest_end(*layer, pointer_side_, pointer_, context);
@@ -185,6 +186,7 @@ ToolDrawing PinTool::draw(const ToolContext& context) const {
   } else if (end && !on_pin) {
     mark(ToolMark::Kind::kPlace, end->side, end->at, fraction(end->side, end->at));
   }
+  drawing.hint_side = half_ ? other(half_->side) : Side::kSource;
   drawing.hint = half_ && half_->side == Side::kSource ? "Now click where it belongs on the sketch  [Esc] cancel"
                  : half_ ? "Now click the point of the outline that belongs here  [Esc] cancel"
                          : "Click a point of the outline, then its place on the sketch  [Del] remove";

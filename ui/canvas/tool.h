@@ -63,6 +63,8 @@ struct ToolDrawing {
   std::optional<CursorShape> cursor;
   /// For the pill at the canvas's lower edge; keys stand in brackets: "[Esc] cancel".
   std::string hint;
+  /// The canvas that it is for.
+  Side hint_side = Side::kTarget;
 };
 
 /// A tool as a state machine: events in, actions out.  Knows no window.
@@ -79,6 +81,10 @@ public:
   virtual bool busy() const = 0;
   virtual ToolDrawing draw(const ToolContext& context) const = 0;
 };
+
+/// Of every tool as long as there is no layer.
+inline constexpr const char* kNoLayerHint = "[Ctrl+Shift+O] adds the picture that the part comes from; or drop it here";
+inline constexpr const char* kNoOutlineHint = "[L] outline the part in the source picture first";
 
 /// The layer that tools work on: the selected one; null when there is none.
 const Layer* selected_layer(const Document& document);

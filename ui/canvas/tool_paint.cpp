@@ -98,7 +98,6 @@ ImVec2 measure(const std::string& text) {
   return ImGui::CalcTextSize(text.c_str(), text.c_str() + text.size());
 }
 
-/// Letters on pictures: dark plates and light letters in either theme.
 constexpr PackedColor kPlate = IM_COL32(12, 13, 16, 225), kInk = IM_COL32(236, 238, 242, 255),
                       kKeyPlate = IM_COL32(70, 74, 84, 255);
 
@@ -111,20 +110,23 @@ void draw_tool(const CanvasPaint& paint, Side side, const ToolDrawing& drawing) 
     if (mark.side == side) draw_mark(paint, mark);
 }
 
-void draw_caption(const CanvasPaint& paint, std::string_view text) {
+void draw_caption(const CanvasPaint& paint, std::span<const std::string> parts) {
   const float pad = paint.look.px(8), margin = paint.look.px(10), room = paint.end.x - paint.corner.x - 2 * margin;
-  std::string shown(text);
-  // From the middle out: the end says the zoom.
-  while (shown.size() > 3 && measure(shown).x + 2 * pad > room)
-    shown = shown.substr(0, shown.size() - 1);
-  while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xc0) == 0x80)
-    shown.pop_back();
+  const auto joined = [&](std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+      text += (i == 0 ? "" : " · ") + parts[i];
+    return text;
+  };
+  std::size_t count = parts.size();
+  while (count > 1 && measure(joined(count)).x + 2 * pad > room)
+    --count;
+  const std::string shown = joined(count);
   const ImVec2 size = measure(shown);
   if (size.x + 2 * pad > room || size.y + 2 * margin > paint.end.y - paint.corner.y) return;
   const ImVec2 low{paint.corner.x + margin, paint.corner.y + margin};
-  const ImVec2 high{low.x + size.x + 2 * pad, low.y + size.y + paint.look.px(6)};
-  paint.list.AddRectFilled(low, high, kPlate, paint.look.px(5));
-  paint.list.AddText({low.x + pad, low.y + paint.look.px(3)}, kInk, shown.c_str(), shown.c_str() + shown.size());
+  draw_plate(paint, low, {low.x + size.x + 2 * pad, low.y + size.y + paint.look.px(6)});
+  draw_plate_text(paint, {low.x + pad, low.y + paint.look.px(3)}, shown);
 }
 
 void draw_hint(const CanvasPaint& paint, std::string_view text) {
@@ -156,6 +158,14 @@ void draw_hint(const CanvasPaint& paint, std::string_view text) {
     paint.list.AddText({x, y}, kInk, begin, begin + piece.text.size());
     x += size.x + gap + (piece.key ? key_pad : 0);
   }
+}
+
+void draw_plate(const CanvasPaint& paint, ImVec2 low, ImVec2 high) {
+  paint.list.AddRectFilled(low, high, kPlate, paint.look.px(5));
+}
+
+void draw_plate_text(const CanvasPaint& paint, ImVec2 at, std::string_view text) {
+  paint.list.AddText(at, kInk, text.data(), text.data() + text.size());
 }
 
 } // namespace oversketch

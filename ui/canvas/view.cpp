@@ -19,7 +19,7 @@ View fitted(Point picture, Point canvas, double margin) {
   CHECK(picture.x > 0 && picture.y > 0 && canvas.x > 0 && canvas.y > 0, "sizes must be positive");
   // A canvas smaller than its margins still shows something.
   const Point room = {std::max(canvas.x - 2 * margin, 1.0), std::max(canvas.y - 2 * margin, 1.0)};
-  const double zoom = std::clamp(std::min(room.x / picture.x, room.y / picture.y), kLeastZoom, 1.0);
+  const double zoom = std::clamp(std::min(room.x / picture.x, room.y / picture.y), kLeastZoom, kMostFit);
   return {0.5 * picture - canvas / (2 * zoom), zoom};
 }
 

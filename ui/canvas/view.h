@@ -26,7 +26,10 @@ View panned(const View& view, Point by);
 /// @param fixed  canvas pixels.
 View zoomed(const View& view, Point fixed, double factor);
 
-/// The whole picture in the middle of the canvas, with a margin, never larger than it is.
+/// Small pictures are fitted no larger than this.
+inline constexpr double kMostFit = 4;
+
+/// The whole picture in the middle of the canvas, with a margin.
 /// @param picture, canvas  sizes in pixels; positive.
 View fitted(Point picture, Point canvas, double margin = 16);
 

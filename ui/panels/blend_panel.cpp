@@ -3,6 +3,7 @@
 #include "ui/widgets/plot.h"
 #include "ui/widgets/section.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -72,6 +73,17 @@ void draw_seldom(const LayerSettings& settings, const DrawContext& context) {
   draw_sampling(settings, context);
 }
 
+/// As many values as a small plot can show, each the greatest of its stretch.
+std::vector<double> thinned(const std::vector<BleedSample>& samples) {
+  constexpr std::size_t kMost = 160;
+  std::vector<double> values(std::min(samples.size(), kMost), 0);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    double& value = values[i * values.size() / samples.size()];
+    value = std::max(value, static_cast<double>(samples[i].norm));
+  }
+  return values;
+}
+
 } // namespace
 
 BlendModel make_blend_model(const Snapshot& snapshot) {
@@ -81,7 +93,9 @@ BlendModel make_blend_model(const Snapshot& snapshot) {
   if (layer == nullptr) return model;
   model.settings = layer->settings;
   const LayerSnapshot* derived = snapshot.find(layer->id);
-  if (derived == nullptr || !(derived->blend_ms > 0)) return model;
+  if (derived == nullptr) return model;
+  if (derived->bleed != nullptr) model.mismatch = thinned(derived->bleed->samples);
+  if (!(derived->blend_ms > 0)) return model;
   char text[64];
   std::snprintf(text, sizeof text, derived->blend_ms < 9.95 ? "%.1f ms a move" : "%.0f ms a move", derived->blend_ms);
   model.summary = text;
@@ -108,8 +122,9 @@ void draw_blend_panel(const BlendModel& model, const DrawContext& context) {
         model.mismatch,
         {.caption = "colour mismatch along the boundary",
          .color = context.look.warning,
-         .height = 34,
-         .from_zero = true});
+         .height = 42,
+         .from_zero = true,
+         .caption_above = true});
 }
 
 } // namespace oversketch

@@ -89,8 +89,8 @@ StatusModel make_status_model(const EditorState& state, const Snapshot* snapshot
   model.said = !state.said.empty() && now_s < state.said_until;
   if (model.said)
     model.line = state.said;
-  else if (snapshot != nullptr)
-    model.line = hint;
+  else
+    model.line = snapshot != nullptr ? std::string(hint) : "Open a picture to begin, or drop one on the window";
   if (snapshot == nullptr || state.tab() == nullptr) return model;
 
   const LayerSnapshot* layer = selected_layer(*snapshot);

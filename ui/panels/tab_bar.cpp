@@ -48,7 +48,10 @@ TabBarModel make_tab_bar_model(const EditorState& state) {
   TabBarModel model;
   model.front = state.front;
   for (const Tab& tab : state.tabs)
-    model.tabs.push_back({tab.name, tab.path.empty() ? "Not saved yet" : tab.path.string(),
+    model.tabs.push_back({tab.name + (tab.read_only ? " (read only)" : ""),
+                          tab.path.empty() ? "Not saved yet"
+                          : tab.read_only  ? tab.path.string() + ": can only be saved under another name"
+                                           : tab.path.string(),
                           tab.session != nullptr && tab.session->snapshot()->modified});
   return model;
 }

@@ -20,6 +20,7 @@ WindowLayout lay_out_window(const LayoutWish& wish) {
   const float status = std::min(h - menu, px(24));
   const float bottom = h - status;
   const float tabs = wish.tabs ? std::min(bottom - menu, px(30)) : 0;
+  const float offer = wish.offer ? std::min(bottom - menu - tabs, px(36)) : 0;
   out.strip_columns = bottom - menu < px(kLowStrip) ? 2 : 1;
   const float strip = std::min(w, px(out.strip_columns == 2 ? 70 : out.narrow ? 40 : 52));
   float side = 0;
@@ -31,7 +32,8 @@ WindowLayout lay_out_window(const LayoutWish& wish) {
   out.status = {ImVec2(0, bottom), ImVec2(w, h)};
   out.strip = {ImVec2(0, menu), ImVec2(strip, bottom)};
   out.tabs = {ImVec2(strip, menu), ImVec2(right, menu + tabs)};
-  out.canvases = {ImVec2(strip, menu + tabs), ImVec2(right, bottom)};
+  out.offer = {ImVec2(strip, menu + tabs), ImVec2(right, menu + tabs + offer)};
+  out.canvases = {ImVec2(strip, menu + tabs + offer), ImVec2(right, bottom)};
   out.side = {ImVec2(right, menu), ImVec2(w, bottom)};
   if (out.narrow && wish.side_over) out.side.low.x = std::max(strip, w - px(300));
   return out;

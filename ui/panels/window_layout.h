@@ -17,6 +17,8 @@ struct Area {
 struct WindowLayout {
   Area menu;
   Area tabs;
+  /// Over the canvases: what earlier runs left behind; empty where nothing is offered.
+  Area offer;
   Area strip;
   Area canvases;
   Area side;
@@ -37,6 +39,7 @@ struct LayoutWish {
   bool side = true;
   bool side_over = false;
   bool tabs = true;
+  bool offer = false;
 };
 
 /// Below this width (design pixels) the side panel does not stand beside the canvases.

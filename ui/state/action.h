@@ -84,12 +84,15 @@ struct Quit {
 };
 /// The question or the file browser is left without an answer, or after it.
 struct Dismiss {};
-/// Work that an earlier run left behind: taken up in a tab of its own, or thrown away.
+/// Work that an earlier run left behind: taken up in a tab of its own; left for another time; or, when asked twice,
+/// thrown away.
 struct Recover {
   std::size_t index = 0;
 };
+struct LeaveRecovered {};
 struct DiscardRecovered {
   std::size_t index = 0;
+  bool without_asking = false;
 };
 
 // The view.
@@ -151,10 +154,10 @@ using Action = std::variant<action::Execute, action::Preview, action::Commit, ac
                             action::Redo, action::Jump, action::CancelWork, action::NewDocument, action::Open,
                             action::AddSource, action::SetTarget, action::Save, action::SaveAs, action::ExportAgain,
                             action::Export, action::OpenSample, action::SelectTab, action::CloseTab, action::Quit,
-                            action::Dismiss, action::Recover, action::DiscardRecovered, action::PickTool,
-                            action::SetOverlays, action::SetPreferences, action::SetView, action::Fit, action::ZoomBy,
-                            action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore, action::SelectPin,
-                            action::WantAlternatives, action::ShowWindow, action::Say>;
+                            action::Dismiss, action::Recover, action::LeaveRecovered, action::DiscardRecovered,
+                            action::PickTool, action::SetOverlays, action::SetPreferences, action::SetView, action::Fit,
+                            action::ZoomBy, action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore,
+                            action::SelectPin, action::WantAlternatives, action::ShowWindow, action::Say>;
 
 /// Where panels and tools put what they want done; carried out after the frame.
 class ActionSink {

@@ -24,7 +24,13 @@ bool answers(const Action& action) {
   return std::holds_alternative<action::Open>(action) || std::holds_alternative<action::AddSource>(action) ||
          std::holds_alternative<action::SetTarget>(action) || std::holds_alternative<action::SaveAs>(action) ||
          std::holds_alternative<action::Export>(action) || std::holds_alternative<action::CloseTab>(action) ||
-         std::holds_alternative<action::Quit>(action);
+         std::holds_alternative<action::Quit>(action) || std::holds_alternative<action::DiscardRecovered>(action);
+}
+
+History::Limits history_limits(const Preferences& preferences) {
+  History::Limits limits;
+  limits.image_bytes = static_cast<std::size_t>(preferences.history_mib * (1 << 20));
+  return limits;
 }
 
 } // namespace
@@ -35,6 +41,7 @@ std::string to_line(const Error& error) {
 
 Editor::Editor(Setup setup) : setup_(std::move(setup)), inbox_(std::make_shared<Inbox>()) {
   state_.preferences = put_in_range(setup_.preferences);
+  search_lost_work();
 }
 
 Editor::~Editor() = default;
@@ -58,8 +65,11 @@ Tab& Editor::add_tab(std::string name) {
   Tab tab;
   tab.id = next_tab_++;
   tab.name = std::move(name);
-  tab.session = std::make_unique<LiveSession>(setup_.wake);
-  memories_[tab.id] = {};
+  const auto journal = std::make_shared<SessionJournal>(setup_.state_folder, tab.name, setup_.wake);
+  tab.session =
+      std::make_unique<LiveSession>(setup_.wake, [journal](const Session& session) { journal->follow(session); });
+  tab.session->limit_history(history_limits(state_.preferences));
+  memories_[tab.id].journal = journal;
   state_.tabs.push_back(std::move(tab));
   state_.front = state_.tabs.size() - 1;
   return state_.tabs.back();
@@ -78,9 +88,14 @@ Tab* Editor::find_tab(int id) {
 
 void Editor::remove_tab(std::size_t index) {
   Tab& tab = state_.tabs[index];
+  const auto journal = memories_[tab.id].journal;
   tab.session->cancel();
+  tab.session->run("", [journal](Session&, const Watch&) {
+    journal->discard();
+    return Result<void>{};
+  });
   memories_.erase(tab.id);
-  closed_.push_back(std::move(tab.session));
+  closed_.push_back({std::move(tab.session), journal});
   state_.tabs.erase(state_.tabs.begin() + static_cast<std::ptrdiff_t>(index));
   if (state_.front > index || state_.front == state_.tabs.size()) state_.front -= state_.front > 0 ? 1 : 0;
 }
@@ -100,10 +115,13 @@ void Editor::run(Tab& tab, std::string label, LiveSession::Job job, Then then) {
 
 void Editor::take_inbox() {
   std::vector<Inbox::Entry> entries;
+  std::optional<std::vector<AbandonedJournal>> found;
   {
     const std::lock_guard lock(inbox_->mutex);
     entries.swap(inbox_->entries);
+    found.swap(inbox_->found);
   }
+  if (found) take_lost_work(std::move(*found));
   for (const Inbox::Entry& entry : entries) {
     --running_;
     if (find_tab(entry.tab) != nullptr && entry.then) entry.then(*this, entry.result);
@@ -113,7 +131,7 @@ void Editor::take_inbox() {
 void Editor::update(const CanvasRects& canvases, double now_s) {
   now_s_ = now_s;
   canvases_ = canvases;
-  std::erase_if(closed_, [](const auto& session) { return !session->activity().busy; });
+  std::erase_if(closed_, [](const Closed& closed) { return !closed.session->activity().busy; });
   take_inbox();
   for (Tab& tab : state_.tabs)
     watch_tab(tab);
@@ -130,6 +148,9 @@ void Editor::watch_tab(Tab& tab) {
   const auto snapshot = tab.session->snapshot();
   if (snapshot->problem && snapshot->problem_number != memory.problem_number) say(*snapshot->problem);
   memory.problem_number = snapshot->problem_number;
+  // No work of anybody's has failed: it is said, and goes on.
+  if (const auto problem = memory.journal->take_problem())
+    say("Unsaved work cannot be kept against a crash: " + problem->sentence);
 
   const Document& document = snapshot->document;
   const Layer* layer = document.selected ? document.find(*document.selected) : nullptr;
@@ -146,7 +167,8 @@ void Editor::watch_tab(Tab& tab) {
 
 bool Editor::busy() const {
   const auto works = [](const auto& session) { return session->activity().busy; };
-  return running_ > 0 || std::ranges::any_of(state_.tabs, works, &Tab::session) || std::ranges::any_of(closed_, works);
+  return running_ > 0 || searching_ || std::ranges::any_of(state_.tabs, works, &Tab::session) ||
+         std::ranges::any_of(closed_, works, &Closed::session);
 }
 
 void Editor::perform_all(std::vector<Action> actions) {
@@ -183,6 +205,8 @@ void Editor::perform(Action action) {
                  [&](action::ExportAgain&) { export_again(); },
                  [&](action::Export& a) { export_to(a); },
                  [&](action::OpenSample&) { open(setup_.assets / "samples" / "puffer.jsonl", false); },
+                 [&](action::Recover& a) { recover(a.index); },
+                 [&](action::DiscardRecovered& a) { discard_recovered(a); },
                  [&](action::CloseTab& a) { close(a); },
                  [&](action::Quit& a) { quit(a); },
                  [&](auto&) { perform_view(action); },
@@ -230,8 +254,13 @@ void Editor::perform_window(const Action& action) {
                  },
                  [&](const action::PickTool& a) { state_.tool = a.tool; },
                  [&](const action::SetOverlays& a) { state_.overlays = a.overlays; },
+                 [&](const action::LeaveRecovered&) { state_.recovered_left = true; },
                  [&](const action::SetPreferences& a) {
+                   const double memory_before = state_.preferences.history_mib;
                    state_.preferences = put_in_range(a.preferences);
+                   if (state_.preferences.history_mib != memory_before)
+                     for (const Tab& each : state_.tabs)
+                       each.session->limit_history(history_limits(state_.preferences));
                    if (setup_.keep_preferences) setup_.keep_preferences(state_.preferences);
                  },
                  [&](const action::ShowWindow& a) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/io/file_claim.h"
+#include "core/io/session_journal.h"
 #include "ui/state/editor_state.h"
 #include "ui/state/file_jobs.h"
 #include "ui/widgets/frame_reply.h"
@@ -12,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace oversketch {
@@ -31,6 +34,8 @@ public:
     std::function<void()> wake;
     /// Called with preferences that have changed.
     std::function<void(const Preferences&)> keep_preferences;
+    /// Where journals of unsaved work lie (default_state_folder()); empty: none are kept, and none are looked for.
+    std::filesystem::path state_folder = {};
   };
   explicit Editor(Setup setup);
   ~Editor();
@@ -58,6 +63,8 @@ public:
   bool busy() const;
   /// Everything that was to be done before leaving is done.
   bool wants_to_quit() const { return quit_; }
+  /// The end, in order: what is not saved was not wanted, and the journals go.
+  void leave();
   /// What went wrong since the last call.
   std::vector<Error> take_problems();
 
@@ -69,6 +76,14 @@ private:
     Hash source;
     Hash target;
     bool saving = false;
+    std::shared_ptr<SessionJournal> journal;
+    /// Of the tab's path; none where another window has it.
+    std::optional<FileClaim> claim;
+  };
+  /// A session whose tab is gone, until its work has stopped.
+  struct Closed {
+    std::unique_ptr<LiveSession> session;
+    std::shared_ptr<SessionJournal> journal;
   };
   /// Tabs are being saved in order to be closed.
   struct Leaving {
@@ -84,6 +99,8 @@ private:
   void say(const Error& error);
 
   Tab& add_tab(std::string name);
+  /// The tab in front while nothing has begun in it, else a new one.
+  Tab& empty_tab();
   Tab* find_tab(int id);
   std::optional<std::size_t> index_of(int id) const;
   void remove_tab(std::size_t index);
@@ -102,6 +119,10 @@ private:
   void save_to(Tab& tab, const std::filesystem::path& path);
   void export_again();
   void export_to(const action::Export& asked);
+  void search_lost_work();
+  void take_lost_work(std::vector<AbandonedJournal> found);
+  void recover(std::size_t index);
+  void discard_recovered(const action::DiscardRecovered& asked);
   void close(const action::CloseTab& asked);
   void quit(const action::Quit& asked);
   void advance_leaving();
@@ -127,8 +148,10 @@ private:
   int running_ = 0;
   bool quit_ = false;
   std::vector<Error> problems_;
-  /// Sessions of closed tabs, until their work has stopped.
-  std::vector<std::unique_ptr<LiveSession>> closed_;
+  std::vector<Closed> closed_;
+  /// Earlier runs' work is being looked for, or thrown away.
+  bool searching_ = false;
+  std::jthread janitor_;
 };
 
 /// An error as one line for a person: what is wrong, and where.

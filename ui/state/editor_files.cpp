@@ -26,12 +26,25 @@ bool is_untouched(const Tab& tab) {
   return snapshot->document.empty() && !tab.session->activity().busy && tab.path.empty();
 }
 
+/// Whether nobody else has the project open; without a place for claims, nobody is known to.
+bool claim_file(const fs::path& state_folder, const fs::path& project, std::optional<FileClaim>& claim) {
+  if (state_folder.empty()) return true;
+  auto taken = FileClaim::take(state_folder, project);
+  if (!taken) return true;
+  claim = std::move(*taken);
+  return claim.has_value();
+}
+
 bool is_on_disk(const fs::path& path) {
   std::error_code failure;
   return fs::exists(path, failure);
 }
 
 } // namespace
+
+Tab& Editor::empty_tab() {
+  return state_.tab() != nullptr && is_untouched(*state_.tab()) ? *state_.tab() : add_tab("");
+}
 
 void Editor::request_file(FileRequest::For purpose, fs::path proposal) {
   state_.file_request = FileRequest{purpose, std::move(proposal)};
@@ -66,25 +79,34 @@ void Editor::open(const fs::path& path, bool remember) {
       state_.front = i;
       return say(file.filename().string() + " is open already");
     }
-  const bool reused = state_.tab() != nullptr && is_untouched(*state_.tab());
-  Tab& tab = reused ? *state_.tab() : add_tab("");
+  Tab& tab = empty_tab();
   tab.name = file.stem().string();
   tab.folder = file.parent_path();
   const auto opened = std::make_shared<OpenedFile>();
-  const auto job = [file, opened](Session& session, const Watch& watch) -> Result<void> {
+  const bool project = kind_of_file(file) == FileKind::kProject;
+  const auto claim = std::make_shared<std::optional<FileClaim>>();
+  const auto job = [=, journal = memories_[tab.id].journal,
+                    folder = setup_.state_folder](Session& session, const Watch& watch) -> Result<void> {
     auto result = open_file(session, file, watch);
     if (!result) return result.error();
     *opened = std::move(*result);
+    journal->begin(session, project ? file.string() : file.stem().string(), project ? file : fs::path());
+    if (project && !opened->read_only && !claim_file(folder, file, *claim)) {
+      opened->read_only = true;
+      opened->message = file.filename().string() +
+                        " is open in another Oversketch window: here it can only be saved under another name";
+    }
     return {};
   };
-  const auto then = [file, opened, remember, id = tab.id](Editor& editor, const Result<void>& result) {
+  const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
     if (!result) {
       editor.say(result.error());
       return editor.remove_tab(*editor.index_of(id));
     }
     Tab& done = *editor.find_tab(id);
     done.read_only = opened->read_only;
-    if (kind_of_file(file) == FileKind::kProject) done.path = file;
+    if (project) done.path = file;
+    editor.memories_[id].claim = std::move(*claim);
     if (!remember) return;
     if (!opened->message.empty()) editor.say(opened->message);
     editor.remember_file(file);
@@ -174,8 +196,17 @@ void Editor::save_to(Tab& tab, const fs::path& path) {
   Memory& memory = memories_[tab.id];
   if (memory.saving) return say(std::string("It is being saved already"));
   memory.saving = true;
-  const auto job = [path](Session& session, const Watch& watch) { return save_file(session, path, watch); };
-  const auto then = [path, id = tab.id](Editor& editor, const Result<void>& result) {
+  const bool claimed = path == tab.path && memory.claim;
+  const auto claim = std::make_shared<std::optional<FileClaim>>();
+  const auto job = [=, journal = memory.journal, folder = setup_.state_folder](Session& session,
+                                                                               const Watch& watch) -> Result<void> {
+    if (!claimed && !claim_file(folder, path, *claim))
+      return Error{"save.open-elsewhere", "it is open in another window: save under another name", path.string()};
+    const auto saved = save_file(session, path, watch);
+    if (saved) journal->mark_saved(session, path);
+    return saved;
+  };
+  const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
     editor.memories_[id].saving = false;
     if (!result) {
       editor.leaving_.reset();
@@ -186,6 +217,7 @@ void Editor::save_to(Tab& tab, const fs::path& path) {
     saved.folder = path.parent_path();
     saved.name = path.stem().string();
     saved.read_only = false;
+    if (!claimed) editor.memories_[id].claim = std::move(*claim);
     if (editor.leaving_) editor.leaving_->saved.insert(id);
     editor.say("Saved " + path.filename().string());
     editor.remember_file(path);

@@ -3,6 +3,8 @@
 #include "ui/state/editor.h"
 
 #include <mutex>
+#include <optional>
+#include <vector>
 
 namespace oversketch {
 
@@ -15,6 +17,8 @@ struct Editor::Inbox {
   };
   std::mutex mutex;
   std::vector<Entry> entries;
+  /// What earlier runs left behind, once it has been looked for.
+  std::optional<std::vector<AbandonedJournal>> found;
 };
 
 } // namespace oversketch

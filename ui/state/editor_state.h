@@ -28,7 +28,7 @@ struct Tab {
   std::filesystem::path folder;
   std::filesystem::path exported_to;
   int export_depth = 8;
-  /// Cannot be saved over its file (a newer version's): save asks for another name.
+  /// Cannot be saved over its file (a newer version's, or open in another window): save asks for another name.
   bool read_only = false;
 };
 
@@ -60,10 +60,13 @@ struct FileRequest {
 /// What an earlier run did not save.
 struct RecoveredWork {
   std::filesystem::path journal;
+  /// The file that it was opened from or saved to; empty for one that never was.
+  std::filesystem::path project;
   /// Of the document, as a person knows it.
   std::string name;
   /// "today 14:03", "Tuesday 9:12".
   std::string when;
+  /// Since it was last saved.
   std::size_t steps = 0;
 };
 
@@ -86,6 +89,8 @@ struct EditorState {
   bool asks_new_document = false;
   /// Newest first.
   std::vector<RecoveredWork> recovered;
+  /// Not offered over other work any more in this run.
+  bool recovered_left = false;
 
   Tab* tab() { return front < tabs.size() ? &tabs[front] : nullptr; }
   const Tab* tab() const { return front < tabs.size() ? &tabs[front] : nullptr; }

@@ -50,6 +50,10 @@ void finish_item(const DrawContext& context, std::string_view id, const Tip& tip
 
   const bool busy = ImGui::IsMouseDown(0) || ImGui::IsItemActive();
   const bool hovered = !busy && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
+  tip_at_rest(context, id, hovered, tip);
+}
+
+void tip_at_rest(const DrawContext& context, std::string_view id, bool hovered, const Tip& tip) {
   const float since = rest_since(context, id, hovered);
   if (since < 0 || tip.text.empty()) return;
   if (context.now_s - since >= kTipDelay_s - 1e-3)

@@ -23,7 +23,11 @@ inline constexpr double kTipDelay_s = 0.5;
 /// tip when the pointer has rested on it.  What is scrolled or clipped away is not registered.
 void finish_item(const DrawContext& context, std::string_view id, const Tip& tip);
 
-/// The same for a box that is no item: a panel, a picture.  Without a tip.
+/// Shows the tip when the pointer has rested on something for a while.
+/// @param hovered  the pointer is on it, and no button down.
+void tip_at_rest(const DrawContext& context, std::string_view id, bool hovered, const Tip& tip);
+
+/// As finish_item() for a box that is no item: a panel, a picture.  Without a tip.
 void register_box(const DrawContext& context, std::string_view id, ImVec2 corner, ImVec2 end);
 
 /// Measures that all panels share, screen pixels.

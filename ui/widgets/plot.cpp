@@ -54,9 +54,10 @@ void draw_plot(const DrawContext& context, std::string_view id, const Tip& tip, 
     const auto heights = plot_heights(values, plot);
     std::vector<ImVec2> line;
     line.reserve(heights.size());
+    const float room = end.y - at.y - 2 * pad - (plot.caption_above ? look.px(16) : 0);
     const float step = (end.x - at.x - 2 * pad) / static_cast<float>(heights.size() - 1);
     for (std::size_t i = 0; i < heights.size(); ++i)
-      line.emplace_back(at.x + pad + step * static_cast<float>(i), end.y - pad - heights[i] * (end.y - at.y - 2 * pad));
+      line.emplace_back(at.x + pad + step * static_cast<float>(i), end.y - pad - heights[i] * room);
     list->AddPolyline(line.data(), static_cast<int>(line.size()), faded(plot.color, alpha), 0, look.px(1.5F));
   }
   draw_text(ImVec2(at.x + pad, at.y + look.px(2)), ImVec2(end.x - look.px(8), at.y + look.px(20)), look.ink_quiet,

@@ -17,6 +17,8 @@ struct PlotLook {
   bool logarithmic = false;
   /// The scale begins at 0 and not at the least value.
   bool from_zero = false;
+  /// The caption has a line of its own over the values, for those that are high everywhere.
+  bool caption_above = false;
 };
 
 /// Values as one small line across the panel, its caption in the corner; the tip tells the value under the pointer.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 namespace oversketch {
@@ -199,6 +200,64 @@ TEST(LiveSession, long_work_can_be_cancelled) {
   live.wait_until_idle();
   EXPECT_FALSE(live.activity().busy);
   EXPECT_EQ(live.snapshot()->problem->code, cancelled().code);
+}
+
+TEST(LiveSession, tells_its_owner_of_every_request_that_was_served) {
+  std::vector<std::size_t> logs;
+  LiveSession live({}, [&](const Session& session) { logs.push_back(session.log().size()); });
+  const std::vector<Command> commands = sketched();
+  for (const Command& command : commands)
+    live.execute(command);
+  live.preview(LayerMove{{}, {3, 4}});
+  live.undo();
+  live.wait_until_idle();
+  EXPECT_EQ(logs, (std::vector<std::size_t>{1, 2, 3, 4, 5})) << "a preview is no step";
+}
+
+TEST(LiveSession, the_history_limit_outlives_what_is_opened) {
+  LiveSession live;
+  live.limit_history({.least_steps = 1, .image_bytes = 0, .most_steps = 3});
+  live.run("opening", [](Session& session, const Watch&) {
+    session.adopt(plain_session(sketched()));
+    return Result<void>();
+  });
+  for (int i = 0; i < 6; ++i)
+    live.execute(LayerMove{{}, {1, 0}});
+  live.wait_until_idle();
+  EXPECT_EQ(live.snapshot()->history.size(), 4u);
+}
+
+/// How far a point is from the nearest of the others.
+double gap(Point at, const Points& others) {
+  double nearest = INFINITY;
+  for (const Point other : others)
+    nearest = std::min(nearest, distance(at, other));
+  return nearest;
+}
+
+TEST(LiveSession, forecasts_bleeding_along_the_boundary_where_the_layer_stands) {
+  LiveSession live;
+  execute_all(live, sketched());
+  live.execute(LayerMove{{}, {11, -7}});
+  live.wait_until_idle();
+  const auto shown = live.snapshot();
+  const LayerSnapshot& layer = shown->layers.at(0);
+  ASSERT_NE(layer.bleed, nullptr);
+  const Points boundary =
+      transformed(layer.deformation->boundary, shown->document.find(layer.id)->placement.to_target());
+  ASSERT_GT(layer.bleed->samples.size(), 50u);
+  for (const BleedSample& sample : layer.bleed->samples)
+    EXPECT_LT(gap(sample.at, boundary), 6);
+  for (const Point corner : boundary) {
+    Points samples;
+    for (const BleedSample& sample : layer.bleed->samples)
+      samples.push_back(sample.at);
+    EXPECT_LT(gap(corner, samples), 1.5);
+  }
+  EXPECT_GT(layer.bleed->largest_norm, 1);
+  live.execute(LayerRemove{});
+  live.wait_until_idle();
+  EXPECT_TRUE(live.snapshot()->layers.empty());
 }
 
 TEST(LiveSession, ends_while_it_is_busy) {

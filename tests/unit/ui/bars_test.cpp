@@ -1,6 +1,7 @@
 #include "tests/unit/ui/headless.h"
 #include "ui/panels/empty_state.h"
 #include "ui/panels/menu_bar.h"
+#include "ui/panels/recovery_bar.h"
 #include "ui/panels/status_bar.h"
 #include "ui/panels/tab_bar.h"
 #include "ui/panels/thumbnail.h"
@@ -48,6 +49,7 @@ TEST_F(Bars, StatusSaysTheLastMessageForItsTime) {
   state.said_until = 8;
   EXPECT_EQ(make_status_model(state, &snapshot, activity, {}, "Draw.", 7.9).line, "Saved sea.jsonl");
   EXPECT_EQ(make_status_model(state, &snapshot, activity, {}, "Draw.", 8).line, "Draw.");
+  EXPECT_NE(make_status_model(state, nullptr, activity, {}, "Draw.", 8).line, "") << "an empty window says what to do";
 }
 
 TEST_F(Bars, SolveIsDescribedByStage) {
@@ -190,7 +192,7 @@ TEST_F(Bars, SwitchingAnOverlayOnShowsThemAgain) {
 TEST_F(Bars, EmptyWindowOffersAWayIn) {
   EmptyStateModel model;
   model.recent = {"/a/sea.jpg", "/b/fish.png"};
-  model.recovered.push_back({"/j", "giraffe", "today 14:03", 7});
+  model.recovered.push_back({"/j", {}, "giraffe", "today 14:03", 7});
   show([&](const DrawContext& context) { draw_empty_state(model, {ImVec2(0, 0), ImVec2(1200, 700)}, context); });
   expect_tips();
   click("empty.open");
@@ -203,6 +205,22 @@ TEST_F(Bars, EmptyWindowOffersAWayIn) {
   EXPECT_EQ(take_one<action::Recover>().index, 0U);
   click("empty.recovered.0.discard");
   EXPECT_EQ(take_one<action::DiscardRecovered>().index, 0U);
+}
+
+TEST_F(Bars, UnsavedWorkIsOfferedOverOtherWork) {
+  for (const char* name : {"giraffe", "puffer"})
+    state.recovered.push_back({"/j", {}, name, "today 14:03", 7});
+  const RecoveryBarModel model = make_recovery_bar_model(state, true);
+  EXPECT_EQ(model.text, "Not saved when the program last ended: giraffe (today 14:03), puffer (today 14:03)");
+  show([&](const DrawContext& context) { draw_recovery_bar(model, {ImVec2(0, 0), ImVec2(400, 36)}, context); });
+  expect_tips();
+  click("recovery.later");
+  take_one<action::LeaveRecovered>();
+  click("recovery.take");
+  const auto actions = sink_.take();
+  ASSERT_EQ(actions.size(), 2U);
+  for (const Action& action : actions)
+    EXPECT_EQ(std::get<action::Recover>(action).index, 0U) << "the next one has moved up";
 }
 
 TEST(Thumbnails, KeepShapeAndMeanAndAreNeverLarger) {

@@ -71,6 +71,19 @@ TEST(MeshCache, has_every_edge_once_and_knows_flipped_cells) {
   EXPECT_EQ(measured.flipped_cells, 1);
 }
 
+TEST(Legends, stand_for_what_is_coloured_and_shown) {
+  Overlays shown;
+  EXPECT_TRUE(list_legends(shown, true).empty());
+  shown.heat_sigma = shown.bleed = true;
+  EXPECT_TRUE(list_legends(shown, false).empty()) << "nothing is coloured yet";
+  const auto legends = list_legends(shown, true);
+  ASSERT_EQ(legends.size(), 2u);
+  EXPECT_EQ(legends[0].low, "1");
+  EXPECT_EQ(legends[1].title, "Colour mismatch");
+  shown.shown = false;
+  EXPECT_TRUE(list_legends(shown, true).empty());
+}
+
 TEST(Colors, go_round_and_fade) {
   EXPECT_EQ(fraction_color(0.25), fraction_color(1.25));
   EXPECT_NE(fraction_color(0.25), fraction_color(0.75));

@@ -45,7 +45,8 @@ TEST(View, a_fitted_picture_is_whole_and_in_the_middle) {
   expect_same(view.to_canvas({720, 540}), {320, 350});
   EXPECT_NEAR(view.to_canvas({0, 0}).x, 16, 1e-9);
   EXPECT_GT(view.to_canvas({0, 0}).y, 16);
-  EXPECT_EQ(fitted({20, 20}, {640, 700}).zoom, 1) << "small pictures are not blown up";
+  EXPECT_EQ(fitted({320, 100}, {672, 700}).zoom, 2) << "a small picture fills its canvas too";
+  EXPECT_EQ(fitted({20, 20}, {640, 700}).zoom, kMostFit) << "within reason";
   EXPECT_GT(fitted({20, 20}, {10, 10}).zoom, 0);
 }
 

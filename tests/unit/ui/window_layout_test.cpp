@@ -24,8 +24,10 @@ TEST(WindowLayout, CoversTheWindowWithoutOverlap) {
     for (const float scale : {0.5F, 1.0F, 1.5F, 3.0F}) {
       for (const bool side : {false, true}) {
         for (const bool tabs : {false, true}) {
-          const WindowLayout out = lay_out_window({.size = size, .scale = scale, .side = side, .tabs = tabs});
-          const std::vector<Area> parts = {out.menu, out.tabs, out.strip, out.canvases, out.side, out.status};
+          const WindowLayout out =
+              lay_out_window({.size = size, .scale = scale, .side = side, .tabs = tabs, .offer = tabs});
+          const std::vector<Area> parts = {out.menu,     out.tabs, out.offer, out.strip,
+                                           out.canvases, out.side, out.status};
           float sum = 0;
           for (std::size_t i = 0; i < parts.size(); ++i) {
             sum += size_of(parts[i]);

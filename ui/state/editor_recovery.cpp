@@ -1,0 +1,92 @@
+// Work that earlier runs left behind, and the end of this one.
+#include "ui/state/editor.h"
+#include "ui/state/editor_inbox.h"
+#include "ui/state/recovered_work.h"
+
+namespace oversketch {
+
+namespace fs = std::filesystem;
+
+void Editor::search_lost_work() {
+  if (setup_.state_folder.empty()) return;
+  searching_ = true;
+  janitor_ = std::jthread([inbox = inbox_, wake = setup_.wake, folder = setup_.state_folder] {
+    remove_old_journals(folder, std::chrono::system_clock::now());
+    auto found = list_abandoned_journals(folder);
+    {
+      const std::lock_guard lock(inbox->mutex);
+      inbox->found = std::move(found);
+    }
+    if (wake) wake();
+  });
+}
+
+void Editor::take_lost_work(std::vector<AbandonedJournal> found) {
+  searching_ = false;
+  state_.recovered.clear();
+  const auto now = std::chrono::system_clock::now();
+  for (const AbandonedJournal& journal : found)
+    if (journal.unsaved_steps > 0) state_.recovered.push_back(describe_lost_work(journal, now));
+}
+
+void Editor::recover(std::size_t index) {
+  if (index >= state_.recovered.size()) return;
+  const RecoveredWork work = state_.recovered[index];
+  state_.recovered.erase(state_.recovered.begin() + static_cast<std::ptrdiff_t>(index));
+  Tab& tab = empty_tab();
+  tab.name = work.name;
+  tab.folder = work.project.parent_path();
+  const auto said = std::make_shared<std::string>();
+  const auto claim = std::make_shared<std::optional<FileClaim>>();
+  const auto job = [=, journal = memories_[tab.id].journal,
+                    folder = setup_.state_folder](Session& session, const Watch& watch) -> Result<void> {
+    auto recovered = recover_journal(work.journal, {}, watch);
+    if (!recovered) return recovered.error();
+    session.adopt(std::move(recovered->session));
+    journal->resume(session, std::move(recovered->journal));
+    if (!work.project.empty())
+      if (auto taken = FileClaim::take(folder, work.project)) *claim = std::move(*taken);
+    *said = recovered->message.empty() ? work.name + " is as it was before the program ended; it is not saved yet"
+                                       : work.name + " is recovered as far as it goes: " + recovered->message;
+    return {};
+  };
+  const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
+    if (result) {
+      Tab& recovered = *editor.find_tab(id);
+      recovered.path = work.project;
+      recovered.read_only = !work.project.empty() && !*claim;
+      editor.memories_[id].claim = std::move(*claim);
+      return editor.say(*said);
+    }
+    // Nothing is lost: it is offered again.
+    editor.say(result.error());
+    editor.remove_tab(*editor.index_of(id));
+    editor.state_.recovered.insert(editor.state_.recovered.begin(), work);
+  };
+  run(tab, "Recovering " + work.name, job, then);
+}
+
+void Editor::discard_recovered(const action::DiscardRecovered& asked) {
+  if (asked.index >= state_.recovered.size()) return;
+  const RecoveredWork work = state_.recovered[asked.index];
+  if (!asked.without_asking) {
+    Question question;
+    question.title = "Throw away the unsaved work on " + work.name + "?";
+    question.text = "It cannot be brought back. Left alone, it is kept for a week.";
+    question.answers = {{"discard", "Throw away", {action::DiscardRecovered{asked.index, true}}, false},
+                        {"cancel", "Keep", {}, true}};
+    state_.question = std::move(question);
+    return;
+  }
+  state_.recovered.erase(state_.recovered.begin() + static_cast<std::ptrdiff_t>(asked.index));
+  janitor_ = std::jthread([folder = work.journal] { discard_abandoned_journal(folder); });
+}
+
+void Editor::leave() {
+  for (auto& [id, memory] : memories_)
+    memory.journal->discard();
+  for (Closed& closed : closed_)
+    closed.journal->discard();
+}
+
+} // namespace oversketch
