@@ -35,6 +35,11 @@ std::invoke_result_t<Work> guarded(Work work) {
   }
 }
 
+/// Wherever it happened.
+bool is_cancelled(const Error& error) {
+  return error.code == cancelled().code;
+}
+
 /// What has not been taken yet, and then what is newer.
 void merge(PictureUpdate& waiting, PictureUpdate newer) {
   if (newer.whole) {
@@ -240,7 +245,7 @@ void LiveSession::State::serve(live::Request& request) {
   const bool only_shown = std::holds_alternative<live::Preview>(request) || std::holds_alternative<live::View>(request);
   if (on_served && !only_shown) on_served(session);
   // A preview is stopped by giving up its gesture: that is no news.
-  if (outcome || (outcome.error() == cancelled() && std::holds_alternative<live::Preview>(request))) return;
+  if (outcome || (is_cancelled(outcome.error()) && std::holds_alternative<live::Preview>(request))) return;
   refuse(outcome.error());
 }
 
@@ -294,7 +299,7 @@ void LiveSession::State::show(live::Quality quality, const std::stop_token& stop
   PictureUpdate changed;
   std::vector<DrawnLayer> drawn;
   const auto painted = guarded([&] { return paint(quality, watch, changed, drawn); });
-  if (!painted && painted.error() != cancelled()) refuse(painted.error());
+  if (!painted && !is_cancelled(painted.error())) refuse(painted.error());
   const bool rested = quality == live::Quality::kRest && painted;
   Snapshot made = snapshots.make(session, rested, watch);
   for (LayerSnapshot& layer : made.layers)
@@ -304,7 +309,7 @@ void LiveSession::State::show(live::Quality quality, const std::stop_token& stop
     }
   add_bleed(drawn, made);
   if (const auto compared = guarded([&] { return compare(quality, made, watch); });
-      !compared && compared.error() != cancelled())
+      !compared && !is_cancelled(compared.error()))
     refuse(compared.error());
   if (rested && view.alternatives)
     if (auto found = guarded([&] { return alternatives.list(session, watch); }); found)

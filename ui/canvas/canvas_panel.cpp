@@ -2,6 +2,7 @@
 
 #include "core/base/hash.h"
 #include "ui/canvas/tool_paint.h"
+#include "ui/state/shortcuts.h"
 #include "ui/widgets/item.h"
 
 #include <algorithm>
@@ -60,6 +61,23 @@ CanvasPaint paint_of(const Scene& scene, const Box& box, Side side) {
   return {scene.list, scene.context.look, scene.canvases.input.view(side), to_imgui(box.low), to_imgui(box.high)};
 }
 
+/// What is left of the slider and what is right of it, beside it where there is room.
+void label_compared(const CanvasPaint& paint, float x, LiveSession::Compare compare) {
+  const auto rows = compare_rows();
+  const auto row = std::ranges::find(rows, compare, &CompareRow::compare);
+  const float gap = paint.look.px(8), pad = paint.look.px(7), height = ImGui::GetTextLineHeight() + paint.look.px(6);
+  const float top = paint.corner.y + paint.look.px(44);
+  const auto put = [&](std::string_view text, bool left) {
+    const float width = ImGui::CalcTextSize(text.data(), text.data() + text.size()).x + 2 * pad;
+    const float from = left ? x - gap - width : x + gap;
+    if (from < paint.corner.x || from + width > paint.end.x || top + height > paint.end.y) return;
+    draw_plate(paint, {from, top}, {from + width, top + height});
+    draw_plate_text(paint, {from + pad, top + paint.look.px(3)}, text);
+  };
+  put("Result", true);
+  if (row != rows.end()) put(row->label, false);
+}
+
 /// The comparison right of the slider, or all over while the state before is held.
 void draw_compared(const Scene& scene, const CanvasPaint& paint) {
   const auto& compare = scene.snapshot.compare;
@@ -92,6 +110,7 @@ void draw_compared(const Scene& scene, const CanvasPaint& paint) {
   for (const float way : {-1.0f, 1.0f})
     scene.list.AddTriangleFilled({x + way * look.px(6.5f), y}, {x + way * look.px(2), y - look.px(4)},
                                  {x + way * look.px(2), y + look.px(4)}, look.curve_halo | IM_COL32_A_MASK);
+  label_compared(paint, x, view.compare);
   scene.context.widgets.add("canvas.compare", {x - r, y - r, 2 * r, 2 * r});
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   tip_at_rest(scene.context, "canvas.compare",

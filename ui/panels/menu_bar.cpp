@@ -86,6 +86,8 @@ std::string document_title(const EditorState& state, const Snapshot* snapshot) {
 void draw_overlay_entries(const EntryContext& entries, std::string_view prefix, const DrawContext& context) {
   Overlays overlays = entries.state.overlays;
   bool changed = false;
+  // Rarely one alone is thrown.
+  compat::begin_switches();
   for (const OverlayRow& row : overlay_rows()) {
     bool& on = overlays.*row.on;
     // A switch that is thrown while all are hidden shows them again: otherwise nothing would be seen of it.
@@ -96,6 +98,7 @@ void draw_overlay_entries(const EntryContext& entries, std::string_view prefix, 
     }
     finish_item(context, std::string(prefix) + "." + std::string(row.id), {std::string(row.help)});
   }
+  compat::end_switches();
   if (changed) entries.sink.emit(action::SetOverlays{overlays});
 }
 

@@ -81,7 +81,8 @@ void Editor::open(const fs::path& path, bool remember) {
     }
   Tab& tab = empty_tab();
   tab.name = file.stem().string();
-  tab.folder = file.parent_path();
+  // Beside the sample nobody wants to save.
+  tab.folder = remember ? file.parent_path() : fs::path();
   const auto opened = std::make_shared<OpenedFile>();
   const bool project = kind_of_file(file) == FileKind::kProject;
   const auto claim = std::make_shared<std::optional<FileClaim>>();

@@ -3,6 +3,9 @@
 // Dear ImGui 1.86, 1.90 and 1.92 under one set of names: what moved between them, and nothing else.
 
 #include <imgui.h>
+#if IMGUI_VERSION_NUM < 19100
+#include <imgui_internal.h>
+#endif
 
 #include <cstdint>
 
@@ -57,6 +60,18 @@ inline void after_overlapped_item() {
 #if IMGUI_VERSION_NUM < 18970
   ImGui::SetItemAllowOverlap();
 #endif
+}
+
+/// Between the two, entries of a menu or popup leave it open when they are clicked: for switches.
+inline void begin_switches() {
+#if IMGUI_VERSION_NUM < 19100
+  ImGui::PushItemFlag(ImGuiItemFlags_SelectableDontClosePopup, true);
+#else
+  ImGui::PushItemFlag(ImGuiItemFlags_AutoClosePopups, false);
+#endif
+}
+inline void end_switches() {
+  ImGui::PopItemFlag();
 }
 
 /// Whether a key went down in this frame, for keys that Dear ImGui 1.86 has names for.

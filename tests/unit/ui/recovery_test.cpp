@@ -146,14 +146,16 @@ TEST_F(Recovery, left_alone_it_is_offered_again_and_thrown_away_only_when_told_t
     run.does(action::Quit{});
     run.editor.leave();
   }
-  Program run(state_);
-  ASSERT_EQ(run.state().recovered.size(), 1u);
-  run.does(action::DiscardRecovered{0});
-  ASSERT_TRUE(run.state().question);
-  EXPECT_EQ(run.state().recovered.size(), 1u);
-  run.editor.perform_all({action::Dismiss{}, run.state().question->answers[0].actions[0]});
-  run.settle();
-  EXPECT_TRUE(run.state().recovered.empty());
+  {
+    Program run(state_);
+    ASSERT_EQ(run.state().recovered.size(), 1u);
+    run.does(action::DiscardRecovered{0});
+    ASSERT_TRUE(run.state().question);
+    EXPECT_EQ(run.state().recovered.size(), 1u);
+    run.editor.perform_all({action::Dismiss{}, run.state().question->answers[0].actions[0]});
+    run.settle();
+    EXPECT_TRUE(run.state().recovered.empty());
+  }
   EXPECT_TRUE(Program(state_).state().recovered.empty());
 }
 
