@@ -1,10 +1,10 @@
 #include "core/base/file.h"
 
+#include "core/base/temporary_name.h"
+
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -87,15 +87,6 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// A name that no other call, thread or process is likely to choose at the same moment; O_EXCL settles the rest.
-fs::path fresh_name(const fs::path& folder, int attempt) {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  char name[80];
-  std::snprintf(name, sizeof name, ".oversketch-%lx-%llx-%x.tmp", static_cast<unsigned long>(::getpid()),
-                static_cast<unsigned long long>(now), static_cast<unsigned>(attempt));
-  return folder / name;
-}
-
 /// A file beside the one to be replaced; gone with this object unless it took the other's place.
 class TemporaryFile {
 public:
@@ -130,10 +121,11 @@ public:
 private:
   int create(const fs::path& folder) {
     for (int attempt = 0; attempt < 100; ++attempt) {
-      path_ = fresh_name(folder, attempt);
+      path_ = temporary_name(folder, attempt);
       const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor >= 0) return descriptor;
-      error_ = errno;
+      if (descriptor >= 0 && lock_temporary(descriptor)) return error_ = 0, descriptor;
+      error_ = descriptor >= 0 ? EEXIST : errno;
+      if (descriptor >= 0) ::close(descriptor);
       if (error_ != EEXIST) break;
     }
     path_.clear();
@@ -143,6 +135,8 @@ private:
   fs::path path_;
   int error_ = 0;
   Descriptor file_;
+  /// Holds the lock until the file has its name, when `file_` is closed already.
+  Descriptor lock_{::fcntl(file_.number(), F_DUPFD_CLOEXEC, 0)};
 };
 
 int write_in_place(const fs::path& path, std::span<const std::byte> bytes) {
@@ -156,7 +150,7 @@ int write_in_place(const fs::path& path, std::span<const std::byte> bytes) {
 int link_beside(const fs::path& path, const fs::path& folder, fs::path& link) {
   int error = EEXIST;
   for (int attempt = 0; attempt < 100 && error == EEXIST; ++attempt) {
-    link = fresh_name(folder, attempt);
+    link = temporary_name(folder, attempt);
     error = ::link(path.c_str(), link.c_str()) == 0 ? 0 : errno;
   }
   return error;
@@ -198,6 +192,7 @@ int replace(const fs::path& path, std::span<const std::byte> bytes, const WriteO
   // The new name itself is synced with the folder.  Some file systems cannot; the file is whole there either way.
   const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.open()) ::fsync(opened.number());
+  if (options.clean_folder) remove_stale_temporaries(folder);
   return 0;
 }
 

@@ -32,6 +32,8 @@ struct WriteOptions {
   /// The file that was there stays beside the new one under this name and "~", in place of an older one of that name.
   /// At no moment is either name without a whole file.
   bool keep_previous = false;
+  /// What killed processes left beside it while they wrote is removed (remove_stale_temporaries()).
+  bool clean_folder = false;
   /// Stopped: error cancelled, the old file as it was.
   Watch watch{};
 };

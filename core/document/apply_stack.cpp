@@ -14,6 +14,13 @@ Image make_canvas(int width, int height, const Color& color) {
   return Image(Raster<Rgba>(width, height, {level(0), level(1), level(2), 1}));
 }
 
+/// "@target" is a source alone: replayed, a target of that name would be nothing.
+Result<void> check_target(const ImageRef& ref) {
+  if (ref.name != kTargetName) return {};
+  return Error{"target.itself",
+               "\"@target\" names the target where a source is asked for; a target is a picture's path", ""};
+}
+
 const Image& loaded(const ImageRef& ref) {
   CHECK(ref.image.has_value(), "an image that was not loaded before the command was applied");
   return *ref.image;
@@ -29,6 +36,7 @@ Result<void> run(Document& document, const DocumentNew& c) {
     return Error{"document.size", "give a target picture, or width and height", ""};
   document = Document{};
   if (c.target) {
+    if (auto other = check_target(*c.target); !other) return other;
     document.target = {c.target->name, loaded(*c.target)};
     return {};
   }
@@ -40,6 +48,7 @@ Result<void> run(Document& document, const DocumentNew& c) {
 }
 
 Result<void> run(Document& document, const TargetSet& c) {
+  if (auto other = check_target(c.target); !other) return other;
   document.target = {c.target.name, loaded(c.target)};
   return {};
 }

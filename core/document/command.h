@@ -156,13 +156,12 @@ using Command = std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, Laye
 ///
 /// Every number is held against its range in the command table, curves must be simple (check_closed_curve), the outline
 /// must lie in its picture, pins must follow each other in the same order on outline and sketch.  An image must have
-/// been loaded into its ImageRef (CHECK), "@target" apart.
+/// been loaded into its ImageRef (CHECK), a source "@target" apart.
 ///
-/// @errors those of check_closed_curve and oversketch, and document.none, document.size, layer.unknown,
-/// layer.none-selected, layer.index,
-///   layer.no-region, region.outside-source, sketch.outside-target, pin.unknown, pin.same-place, pin.order,
-///   pin.nothing-to-move, value.range, value.missing, command.nothing-to-do, transform.range; the document given is
-///   unchanged, being const.
+/// @errors those of check_closed_curve and oversketch, and document.none, document.size, target.itself, layer.unknown,
+///   layer.none-selected, layer.index, layer.no-region, region.outside-source, sketch.outside-target, pin.unknown,
+///   pin.same-place, pin.order, pin.nothing-to-move, value.range, value.missing, command.nothing-to-do,
+///   transform.range; the document given is unchanged, being const.
 /// @cost O(points); no image is touched.
 Result<Document> apply(const Document& document, const Command& command);
 

@@ -46,7 +46,7 @@ std::string_view label_word(const Command& command);
 /// The command as one line of a script: {"do": …}.
 std::string print_command(const Command& command);
 
-/// The reverse of print_command: parse_command(print_command(c)) == c for every c.
+/// The reverse of print_command: parse_command(print_command(c)) == c for every c whose texts are UTF-8.
 /// @errors script.syntax, script.not-an-object, script.no-do, script.unknown-command, script.unknown-key,
 /// script.missing-key,
 ///   script.type, script.repeated-key.

@@ -31,6 +31,10 @@ TEST(Apply, refuses_what_is_wrong_and_says_what) {
   EXPECT_EQ(refusal(none, DocumentNew{}), "document.size");
   EXPECT_EQ(refusal(none, new_document(0, 10)), "value.range");
   EXPECT_EQ(refusal(none, new_document(60000, 60000)), "document.size");
+  DocumentNew itself;
+  itself.target = ImageRef{std::string(kTargetName), std::nullopt};
+  EXPECT_EQ(refusal(none, itself), "target.itself");
+  EXPECT_EQ(refusal(canvas, TargetSet{{std::string(kTargetName), std::nullopt}}), "target.itself");
   EXPECT_EQ(refusal(canvas, LayerMove{{}, {1, 2}}), "layer.none-selected");
   EXPECT_EQ(refusal(layer, LayerMove{LayerId{7}, {1, 2}}), "layer.unknown");
   EXPECT_EQ(refusal(layer, LayerOrder{{}, 1}), "layer.index");
