@@ -97,6 +97,21 @@ CLI::App* Cli::add(const std::string& name, const std::string& description, cons
   return sub;
 }
 
+void Cli::add_memory_option(CLI::App* subcommand) {
+  subcommand
+      ->add_option("--memory", memory_mb_,
+                   "MB that the pictures it opens may take, 16 bytes a pixel; what asks for more is refused")
+      ->type_name("MB")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30))
+      ->capture_default_str();
+}
+
+IoLimits Cli::limits() const {
+  IoLimits limits;
+  limits.memory_bytes = memory_mb_ << 20;
+  return limits;
+}
+
 void Cli::on_run(CLI::App* subcommand, std::function<Result<Json>(const Watch&)> work) {
   subcommand->callback([this, name = subcommand->get_name(), work = std::move(work)] { chosen_ = name, work_ = work; });
 }

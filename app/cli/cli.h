@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/base/watch.h"
+#include "core/io/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,9 @@ public:
   CLI::App* add(const std::string& name, const std::string& description, const std::string& example);
   /// What the subcommand does when it was chosen; returns what the report holds beyond the common keys.
   void on_run(CLI::App* subcommand, std::function<Result<Json>(const Watch&)> work);
+  /// For subcommands that open pictures or projects; limits() says what was asked for.
+  void add_memory_option(CLI::App* subcommand);
+  IoLimits limits() const;
 
 private:
   int perform(const std::string& name, const std::function<Result<Json>(const Watch&)>& work);
@@ -34,6 +38,7 @@ private:
   std::vector<std::string> names_;
   std::string report_path_;
   int threads_ = 0;
+  std::size_t memory_mb_ = IoLimits{}.memory_bytes >> 20;
   std::string chosen_;
   std::function<Result<Json>(const Watch&)> work_;
 };

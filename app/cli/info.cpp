@@ -40,8 +40,8 @@ Result<Json> describe_layer(Session& session, const Layer& layer, const Watch& w
 }
 
 /// The layers of a file that is another program's: they are offered as sources.
-Result<Json> describe_foreign(const std::string& path) {
-  const auto file = OraFile::open(path);
+Result<Json> describe_foreign(const std::string& path, const IoLimits& limits) {
+  const auto file = OraFile::open(path, limits);
   if (!file) return file.error();
   Json layers = Json::array();
   for (const OraFile::Layer& layer : file->layers()) {
@@ -55,10 +55,10 @@ Result<Json> describe_foreign(const std::string& path) {
   return layers;
 }
 
-Result<Json> describe(const std::string& path, const Watch& watch) {
-  const auto version = read_project_version(path);
+Result<Json> describe(const std::string& path, const IoLimits& limits, const Watch& watch) {
+  const auto version = read_project_version(path, {limits});
   if (!version) return version.error();
-  auto loaded = load_project(path, {}, watch);
+  auto loaded = load_project(path, {limits}, watch);
   if (!loaded) return loaded.error();
   const Document& document = loaded->session.document();
   Json json;
@@ -74,7 +74,7 @@ Result<Json> describe(const std::string& path, const Watch& watch) {
     json["layers"].push_back(std::move(*described));
   }
   if (loaded->foreign || loaded->read_only) {
-    auto offered = describe_foreign(path);
+    auto offered = describe_foreign(path, limits);
     if (!offered) return offered.error();
     json["offered"] = std::move(*offered);
   }
@@ -114,8 +114,9 @@ void add_info(Cli& cli) {
   CLI::App* sub = cli.add("info", "Say what is in a project.", "info work.ora --json");
   sub->add_option("project", options->project, "the project")->required()->type_name("PROJECT.ora");
   sub->add_flag("--json", options->json, "as JSON");
-  cli.on_run(sub, [options](const Watch& watch) -> Result<Json> {
-    auto described = describe(options->project, watch);
+  cli.add_memory_option(sub);
+  cli.on_run(sub, [options, &cli](const Watch& watch) -> Result<Json> {
+    auto described = describe(options->project, cli.limits(), watch);
     if (!described) return described;
     if (options->json)
       std::printf("%s\n", described->dump(1, ' ', false, Json::error_handler_t::replace).c_str());

@@ -17,15 +17,15 @@ struct RenderArguments {
   int depth = 8;
 };
 
-Result<Session> open_project(const std::string& path, const Watch& watch) {
-  auto loaded = load_project(path, {}, watch);
+Result<Session> open_project(const std::string& path, const IoLimits& limits, const Watch& watch) {
+  auto loaded = load_project(path, {limits}, watch);
   if (!loaded) return loaded.error();
   if (!loaded->message.empty()) std::fprintf(stderr, "oversketch-cli: %s: %s\n", path.c_str(), loaded->message.c_str());
   return std::move(loaded->session);
 }
 
 /// The script's last state: its commands, undo and redo, without what it writes or expects.
-Result<Session> replay(const std::string& path, const Watch& watch) {
+Result<Session> replay(const std::string& path, const IoLimits& limits, const Watch& watch) {
   const std::filesystem::path script(path);
   const auto text = read_text_file(script);
   if (!text) return text.error();
@@ -36,14 +36,14 @@ Result<Session> replay(const std::string& path, const Watch& watch) {
            !std::holds_alternative<RedoStep>(line.step) && !std::holds_alternative<OpenStep>(line.step);
   });
   Session session;
-  const auto done = run_script(session, *lines, path, {script.parent_path(), script.parent_path()}, watch);
+  const auto done = run_script(session, *lines, path, {script.parent_path(), script.parent_path(), limits}, watch);
   if (!done) return done.error();
   return session;
 }
 
-Result<Json> render(const RenderArguments& options, const Watch& watch) {
+Result<Json> render(const RenderArguments& options, const IoLimits& limits, const Watch& watch) {
   const bool is_project = std::filesystem::path(options.source).extension() == ".ora";
-  auto session = is_project ? open_project(options.source, watch) : replay(options.source, watch);
+  auto session = is_project ? open_project(options.source, limits, watch) : replay(options.source, limits, watch);
   if (!session) return session.error();
   const auto picture = session->composite(watch);
   if (!picture) return picture.error();
@@ -69,7 +69,8 @@ void add_render(Cli& cli) {
   sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
-  cli.on_run(sub, [options](const Watch& watch) { return render(*options, watch); });
+  cli.add_memory_option(sub);
+  cli.on_run(sub, [options, &cli](const Watch& watch) { return render(*options, cli.limits(), watch); });
 }
 
 } // namespace oversketch::cli

@@ -12,12 +12,12 @@ struct RunArguments {
   std::string script, out;
 };
 
-Result<Json> run(const RunArguments& options, const Watch& watch) {
+Result<Json> run(const RunArguments& options, const IoLimits& limits, const Watch& watch) {
   const std::filesystem::path script(options.script);
   const std::filesystem::path folder = script.has_parent_path() ? script.parent_path() : std::filesystem::path(".");
   Session session;
-  const auto summary =
-      run_script_file(session, script, options.out.empty() ? folder : std::filesystem::path(options.out), watch);
+  const std::filesystem::path out = options.out.empty() ? folder : std::filesystem::path(options.out);
+  const auto summary = run_script_file(session, script, out, watch, limits);
   if (!summary) return summary.error();
   Json report;
   report["steps"] = summary->steps;
@@ -35,7 +35,8 @@ void add_run(Cli& cli) {
                           "run assets/samples/puffer.jsonl --out out");
   sub->add_option("script", options->script, "the script, JSON Lines")->required()->type_name("SCRIPT.jsonl");
   sub->add_option("--out", options->out, "output folder (the script's own when left out)")->type_name("DIR");
-  cli.on_run(sub, [options](const Watch& watch) { return run(*options, watch); });
+  cli.add_memory_option(sub);
+  cli.on_run(sub, [options, &cli](const Watch& watch) { return run(*options, cli.limits(), watch); });
 }
 
 } // namespace oversketch::cli

@@ -100,10 +100,10 @@ bool palette_has_all(const Header& h, std::span<const std::byte> file) {
 
 } // namespace
 
-Result<Decoded> decode_bmp(std::span<const std::byte> file) {
+Result<Decoded> decode_bmp(std::span<const std::byte> file, std::int64_t most_pixels) {
   const Result<Header> h = read_header(file);
   if (!h) return h.error();
-  if (const auto size = check_size(h->width, h->height, kFormat); !size) return size.error();
+  if (const auto size = check_size(h->width, h->height, kFormat, most_pixels); !size) return size.error();
   if (const auto kind = check_kind(*h); !kind) return kind.error();
   const std::uint64_t needed = h->stride() * static_cast<std::uint64_t>(h->height - 1) + h->row_bytes();
   if (h->pixels_at > file.size() || file.size() - h->pixels_at < needed) return image_truncated(kFormat);

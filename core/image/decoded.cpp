@@ -9,6 +9,11 @@ namespace oversketch {
 
 namespace {
 
+std::string say_pixels(std::int64_t count) {
+  constexpr std::int64_t kMega = 1'000'000;
+  return count < kMega ? std::to_string(count) : std::to_string(count / kMega) + " megapixels";
+}
+
 std::size_t sample_bytes(Samples samples) {
   switch (samples) {
   case Samples::kU8:
@@ -139,12 +144,12 @@ Image to_image(const Decoded& decoded) {
   return {};
 }
 
-Result<void> check_size(std::int64_t width, std::int64_t height, std::string_view format) {
+Result<void> check_size(std::int64_t width, std::int64_t height, std::string_view format, std::int64_t most_pixels) {
   if (width <= 0 || height <= 0) return image_damaged(format, "its header says that it has no pixels");
-  if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
+  const std::int64_t most = std::min(most_pixels, kMaxPixels);
+  if (width > most || height > most || width * height > most)
     return image_too_large(format, "it says it has " + std::to_string(width) + " × " + std::to_string(height) +
-                                       " pixels; at most " + std::to_string(kMaxPixels / 1'000'000) +
-                                       " megapixels are opened");
+                                       " pixels; at most " + say_pixels(most) + " are opened");
   return {};
 }
 

@@ -41,21 +41,21 @@ Decoded make_decoded(int width, int height, int channels, Samples samples);
 /// To encoded floats, turned upright.  v / 255 and v / 65535 are correctly rounded.
 Image to_image(const Decoded& decoded);
 
-/// @errors image.damaged when there are no pixels, image.too-large above kMaxPixels.
-Result<void> check_size(std::int64_t width, std::int64_t height, std::string_view format);
+/// @errors image.damaged when there are no pixels, image.too-large above `most_pixels`.
+Result<void> check_size(std::int64_t width, std::int64_t height, std::string_view format, std::int64_t most_pixels);
 
 Error image_truncated(std::string_view format);
 Error image_damaged(std::string_view format, std::string_view reason);
 Error image_unsupported(std::string_view format, std::string_view what);
 Error image_too_large(std::string_view format, std::string_view why);
 
-Result<Decoded> decode_png(std::span<const std::byte> file);
-Result<Decoded> decode_jpeg(std::span<const std::byte> file);
-Result<Decoded> decode_bmp(std::span<const std::byte> file);
-Result<Decoded> decode_tga(std::span<const std::byte> file);
-Result<Decoded> decode_hdr(std::span<const std::byte> file);
+Result<Decoded> decode_png(std::span<const std::byte> file, std::int64_t most_pixels);
+Result<Decoded> decode_jpeg(std::span<const std::byte> file, std::int64_t most_pixels);
+Result<Decoded> decode_bmp(std::span<const std::byte> file, std::int64_t most_pixels);
+Result<Decoded> decode_tga(std::span<const std::byte> file, std::int64_t most_pixels);
+Result<Decoded> decode_hdr(std::span<const std::byte> file, std::int64_t most_pixels);
 /// See exact.h.
-Result<Decoded> decode_floats(std::span<const std::byte> file);
+Result<Decoded> decode_floats(std::span<const std::byte> file, std::int64_t most_pixels);
 
 /// TGA has no signature: true when every field of the header has a value that the format knows.
 bool looks_like_tga(std::span<const std::byte> file);

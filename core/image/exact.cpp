@@ -79,8 +79,8 @@ Result<std::vector<std::byte>> encode_floats(const Image& image) {
   return bytes;
 }
 
-Result<Decoded> decode_floats(std::span<const std::byte> file) {
-  const auto size = read_image_size(file);
+Result<Decoded> decode_floats(std::span<const std::byte> file, std::int64_t most_pixels) {
+  const auto size = read_image_size(file, most_pixels);
   if (!size) return size.error();
   const std::size_t count = static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height);
   if (file.size() < kFloatHeaderBytes + count * kPixelBytes) return image_truncated("float");
@@ -94,7 +94,7 @@ Result<Decoded> decode_floats(std::span<const std::byte> file) {
   return decoded;
 }
 
-Result<ImageSize> read_image_size(std::span<const std::byte> bytes) {
+Result<ImageSize> read_image_size(std::span<const std::byte> bytes, std::int64_t most_pixels) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::uint32_t width = 0, height = 0;
   std::string_view format = "float";
@@ -109,7 +109,7 @@ Result<ImageSize> read_image_size(std::span<const std::byte> bytes) {
   } else {
     return Error{"image.unknown-format", "This is no PNG picture.", ""};
   }
-  if (auto good = check_size(width, height, format); !good) return good.error();
+  if (auto good = check_size(width, height, format, most_pixels); !good) return good.error();
   return ImageSize{static_cast<int>(width), static_cast<int>(height)};
 }
 

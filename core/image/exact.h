@@ -42,7 +42,8 @@ struct ImageSize {
 inline constexpr std::size_t kSizeHeaderBytes = 33;
 
 /// What the first bytes of a PNG or a float picture say of its size.  Nothing is allocated for it.
-/// @errors image.unknown-format (any other kind of file), image.truncated, image.damaged, image.too-large (kMaxPixels).
-Result<ImageSize> read_image_size(std::span<const std::byte> first_bytes);
+/// @errors image.unknown-format (any other kind of file), image.truncated, image.damaged, image.too-large (more than
+///   `most_pixels` or kMaxPixels).
+Result<ImageSize> read_image_size(std::span<const std::byte> first_bytes, std::int64_t most_pixels = kMaxPixels);
 
 } // namespace oversketch

@@ -36,7 +36,7 @@ std::optional<Axis> take_axis(std::string_view& text) {
 }
 
 /// The lines up to an empty one are read by stb_image; the one behind it holds the size, the slow axis first.
-Result<Header> read_header(std::string_view text) {
+Result<Header> read_header(std::string_view text, std::int64_t most_pixels) {
   const std::size_t empty = text.find("\n\n");
   const std::size_t end = empty == std::string_view::npos ? empty : text.find('\n', empty + 2);
   if (end == std::string_view::npos) return image_truncated(kFormat);
@@ -44,7 +44,7 @@ Result<Header> read_header(std::string_view text) {
   const auto slow = take_axis(line), fast = take_axis(line);
   if (!slow || !fast || !line.empty() || slow->name[1] == fast->name[1])
     return image_damaged(kFormat, "its size line cannot be read");
-  if (const auto size = check_size(fast->length, slow->length, kFormat); !size) return size.error();
+  if (const auto size = check_size(fast->length, slow->length, kFormat, most_pixels); !size) return size.error();
   if (slow->name != "-Y " || fast->name != "+X ")
     return image_unsupported(kFormat, "pixels in another order than rows from the top");
   return Header{fast->length, slow->length, end + 1};
@@ -90,8 +90,8 @@ private:
 
 } // namespace
 
-Result<Decoded> decode_hdr(std::span<const std::byte> file) {
-  const auto header = read_header({reinterpret_cast<const char*>(file.data()), file.size()});
+Result<Decoded> decode_hdr(std::span<const std::byte> file, std::int64_t most_pixels) {
+  const auto header = read_header({reinterpret_cast<const char*>(file.data()), file.size()}, most_pixels);
   if (!header) return header.error();
   if (const auto pixels = check_pixels(*header, file.subspan(header->pixels_at)); !pixels) return pixels.error();
   Result<Decoded> decoded = load_with_stb(file, {kFormat, header->width, header->height, 3, Samples::kFloat});

@@ -20,7 +20,7 @@ constexpr std::string_view kFormatsRead = "PNG, JPEG, BMP, TGA and HDR pictures 
 
 struct Format {
   std::string_view signature;
-  Result<Decoded> (*decode)(std::span<const std::byte>);
+  Result<Decoded> (*decode)(std::span<const std::byte>, std::int64_t most_pixels);
   std::string_view name;
 };
 
@@ -55,14 +55,14 @@ Error unknown_format(std::string_view text) {
           "This is not a picture, or one of an unknown kind: " + std::string(kFormatsRead) + ".", ""};
 }
 
-Result<Decoded> decode(std::span<const std::byte> bytes) {
+Result<Decoded> decode(std::span<const std::byte> bytes, std::int64_t most_pixels) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.empty()) return Error{"image.truncated", "The file is empty. Copy or download it again.", ""};
   for (const Format& format : kFormats) {
-    if (text.starts_with(format.signature)) return format.decode(bytes);
+    if (text.starts_with(format.signature)) return format.decode(bytes, most_pixels);
     if (format.signature.starts_with(text)) return image_truncated(format.name);
   }
-  if (looks_like_tga(bytes)) return decode_tga(bytes);
+  if (looks_like_tga(bytes)) return decode_tga(bytes, most_pixels);
   return unknown_format(text);
 }
 
@@ -93,15 +93,15 @@ Result<void> check_exportable(const Image& image) {
   return {};
 }
 
-Result<Image> decode_image(std::span<const std::byte> bytes) try {
-  const Result<Decoded> decoded = decode(bytes);
+Result<Image> decode_image(std::span<const std::byte> bytes, std::int64_t most_pixels) try {
+  const Result<Decoded> decoded = decode(bytes, most_pixels);
   if (!decoded) return decoded.error();
   return to_image(*decoded);
 } catch (const std::bad_alloc&) {
   return Error{"image.too-large", "There is not enough memory to open this picture.", ""};
 }
 
-Result<Image> load_image(const std::filesystem::path& path) {
+Result<Image> load_image(const std::filesystem::path& path, std::int64_t most_pixels) {
   // A pipe or a device may never end.
   std::error_code ignored;
   const auto kind = std::filesystem::status(path, ignored).type();
@@ -110,7 +110,7 @@ Result<Image> load_image(const std::filesystem::path& path) {
     return Error{"image.unreadable", "The picture cannot be opened: it is no regular file.", path.string()};
   const auto bytes = read_file(path);
   if (!bytes) return opening_error(bytes.error());
-  Result<Image> image = decode_image(*bytes);
+  Result<Image> image = decode_image(*bytes, most_pixels);
   if (!image) return at(path.string(), image.error());
   return image;
 }

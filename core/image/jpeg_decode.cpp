@@ -134,7 +134,7 @@ Decoded without_ink(const Decoded& cmyk, bool inverted) {
 
 } // namespace
 
-Result<Decoded> decode_jpeg(std::span<const std::byte> file) {
+Result<Decoded> decode_jpeg(std::span<const std::byte> file, std::int64_t most_pixels) {
   const auto close = [](Job* job) {
     jpeg_destroy_decompress(&job->info);
     delete job;
@@ -142,7 +142,8 @@ Result<Decoded> decode_jpeg(std::span<const std::byte> file) {
   const std::unique_ptr<Job, decltype(close)> job(new Job{}, close);
   start(*job, file);
   if (!job->info.src || !read_header(*job)) return to_error(*job);
-  if (const auto size = check_size(job->info.image_width, job->info.image_height, kFormat); !size) return size.error();
+  if (const auto size = check_size(job->info.image_width, job->info.image_height, kFormat, most_pixels); !size)
+    return size.error();
   const int orientation = read_orientation(*job);
   const int components = job->info.num_components;
   if (components != 1 && components != 3 && components != 4)

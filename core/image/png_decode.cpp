@@ -34,7 +34,7 @@ struct Layout {
   std::span<const std::byte> exif;
 };
 
-Result<Layout> read_header(ByteReader& reader) {
+Result<Layout> read_header(ByteReader& reader, std::int64_t most_pixels) {
   Layout layout;
   const std::uint32_t length = reader.u32_big(), type = reader.u32_big();
   layout.width = reader.u32_big();
@@ -44,14 +44,14 @@ Result<Layout> read_header(ByteReader& reader) {
   reader.skip(3 + 4);
   if (reader.past_end()) return image_truncated(kFormat);
   if (length != 13 || type != chunk("IHDR")) return image_damaged(kFormat, "it does not begin with its header");
-  if (const auto size = check_size(layout.width, layout.height, kFormat); !size) return size.error();
+  if (const auto size = check_size(layout.width, layout.height, kFormat, most_pixels); !size) return size.error();
   return layout;
 }
 
 /// Walks from chunk to chunk to IEND: a file that was cut off anywhere is found here.
-Result<Layout> read_layout(std::span<const std::byte> file) {
+Result<Layout> read_layout(std::span<const std::byte> file, std::int64_t most_pixels) {
   ByteReader reader(file, kSignatureBytes);
-  Result<Layout> header = read_header(reader);
+  Result<Layout> header = read_header(reader, most_pixels);
   if (!header) return header;
   Layout& layout = *header;
   for (std::uint32_t type = 0; type != chunk("IEND");) {
@@ -88,8 +88,8 @@ Error to_error(int code) {
 
 } // namespace
 
-Result<Decoded> decode_png(std::span<const std::byte> file) {
-  const Result<Layout> layout = read_layout(file);
+Result<Decoded> decode_png(std::span<const std::byte> file, std::int64_t most_pixels) {
+  const Result<Layout> layout = read_layout(file, most_pixels);
   if (!layout) return layout.error();
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
   if (!context) return image_too_large(kFormat, "there is not enough memory");

@@ -1,5 +1,7 @@
 #include "core/image/stb_load.h"
 
+#include "core/image/image_io.h"
+
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -53,7 +55,8 @@ Error failure(std::string_view format) {
 
 /// That stb_image reads the header as we do, so that it allocates no more than was allowed.
 Result<void> check_header(std::span<const std::byte> file, const StbPicture& picture) {
-  if (const auto size = check_size(picture.width, picture.height, picture.format); !size) return size.error();
+  if (const auto size = check_size(picture.width, picture.height, picture.format, kMaxPixels); !size)
+    return size.error();
   StbSource source(file);
   int width = 0, height = 0;
   if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, nullptr))

@@ -118,9 +118,9 @@ bool looks_like_tga(std::span<const std::byte> file) {
   }
 }
 
-Result<Decoded> decode_tga(std::span<const std::byte> file) {
+Result<Decoded> decode_tga(std::span<const std::byte> file, std::int64_t most_pixels) {
   const Header h = read_header(file);
-  if (const auto size = check_size(h.width, h.height, kFormat); !size) return size.error();
+  if (const auto size = check_size(h.width, h.height, kFormat, most_pixels); !size) return size.error();
   if (h.map_kind == 1 && h.kind != 1) return image_unsupported(kFormat, "a colour map beside pixels with colours");
   // stb_image counts the entries that are left out as bytes.
   if (h.map_first != 0) return image_unsupported(kFormat, "a part of a colour map");

@@ -196,6 +196,7 @@ Result<void> write_project(const ProjectContents& contents, const fs::path& path
   const StageTimer writing(watch.times, "save.write");
   WriteOptions how;
   how.keep_previous = true;
+  how.clean_folder = true;
   how.watch = watch;
   return write_file(path, *archive, how);
 }

@@ -37,14 +37,14 @@ Result<void> save_session(const Session& session, const fs::path& path) {
   return write_file(path, text);
 }
 
-Result<void> open_session(Session& session, const fs::path& path, const Watch& watch) {
+Result<void> open_session(Session& session, const fs::path& path, const Watch& watch, const IoLimits& limits) {
   const auto text = read_text_file(path);
   if (!text) return text.error();
   const auto lines = parse_script(*text, path.string());
   if (!lines) return lines.error();
   if (lines->empty()) return at(path.string(), no_session("it has no commands"));
   Session opened;
-  PictureLoader pictures(path.parent_path());
+  PictureLoader pictures(path.parent_path(), limits.memory_bytes);
   for (const ScriptLine& line : *lines) {
     const std::string place = path.string() + ":" + std::to_string(line.number);
     if (watch.stopped()) return cancelled();

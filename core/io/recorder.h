@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/io/limits.h"
 #include "core/session/session.h"
 
 #include <filesystem>
@@ -17,6 +18,7 @@ Result<void> save_session(const Session& session, const std::filesystem::path& p
 /// @errors those of parse_script, open.not-a-session (steps other than commands, undo and redo), and those of the
 /// commands;
 ///   the session stays as it was then.
-Result<void> open_session(Session& session, const std::filesystem::path& path, const Watch& watch);
+Result<void> open_session(Session& session, const std::filesystem::path& path, const Watch& watch,
+                          const IoLimits& limits = {});
 
 } // namespace oversketch

@@ -25,7 +25,7 @@ Error path_error(const std::string& path, const char* why) {
 class Runner {
 public:
   Runner(Session& session, const ScriptFolders& folders, const Watch& watch)
-      : session_(session), folders_(folders), watch_(watch), pictures_(folders.script) {}
+      : session_(session), folders_(folders), watch_(watch), pictures_(folders.script, folders.limits.memory_bytes) {}
 
   Result<void> run(const Step& step) {
     return std::visit([this](const auto& s) { return run_step(s); }, step);
@@ -62,8 +62,8 @@ private:
     fs::path path = folders_.out / step.path;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) path = folders_.script / step.path;
-    if (path.extension() != ".ora") return open_session(session_, path, watch_);
-    auto loaded = load_project(path, {}, watch_);
+    if (path.extension() != ".ora") return open_session(session_, path, watch_, folders_.limits);
+    auto loaded = load_project(path, {folders_.limits}, watch_);
     if (!loaded) return loaded.error();
     session_.adopt(std::move(loaded->session));
     return {};
@@ -133,7 +133,8 @@ private:
   Result<void> expect_image(const std::string& name, double max_difference) {
     std::error_code ignored;
     const bool exported = !fs::exists(folders_.script / name, ignored) && fs::exists(folders_.out / name, ignored);
-    const auto wanted = load_image((exported ? folders_.out : folders_.script) / name);
+    const auto wanted = load_image((exported ? folders_.out : folders_.script) / name,
+                                   static_cast<std::int64_t>(folders_.limits.memory_bytes / sizeof(Rgba)));
     if (!wanted) return wanted.error();
     const auto shown = session_.composite(watch_);
     if (!shown) return shown.error();
@@ -198,12 +199,13 @@ Result<RunSummary> run_script(Session& session, const std::vector<ScriptLine>& l
   return summary;
 }
 
-Result<RunSummary> run_script_file(Session& session, const fs::path& script, const fs::path& out, const Watch& watch) {
+Result<RunSummary> run_script_file(Session& session, const fs::path& script, const fs::path& out, const Watch& watch,
+                                   const IoLimits& limits) {
   const auto text = read_text_file(script);
   if (!text) return text.error();
   const auto lines = parse_script(*text, script.string());
   if (!lines) return lines.error();
-  return run_script(session, *lines, script.string(), {script.parent_path(), out}, watch);
+  return run_script(session, *lines, script.string(), {script.parent_path(), out, limits}, watch);
 }
 
 } // namespace oversketch

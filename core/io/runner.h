@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/base/watch.h"
+#include "core/io/limits.h"
 #include "core/session/script.h"
 #include "core/session/session.h"
 
@@ -10,12 +11,13 @@
 
 namespace oversketch {
 
-/// Where a script reads and writes.
+/// Where a script reads and writes, and how much what it opens may ask for.
 struct ScriptFolders {
   /// Pictures are named relative to it.
   std::filesystem::path script;
   /// Everything that is written lies below it.
   std::filesystem::path out;
+  IoLimits limits{};
 };
 
 struct RunSummary {
@@ -35,6 +37,6 @@ Result<RunSummary> run_script(Session& session, const std::vector<ScriptLine>& l
 
 /// Reads, parses and runs a script file.
 Result<RunSummary> run_script_file(Session& session, const std::filesystem::path& script,
-                                   const std::filesystem::path& out, const Watch& watch);
+                                   const std::filesystem::path& out, const Watch& watch, const IoLimits& limits = {});
 
 } // namespace oversketch

@@ -120,6 +120,10 @@ TEST_F(CommandLine, refuses_bad_input_and_writes_nothing) {
   refused("deform case.json --out out.json --iterations -5", "deform.iterations");
   refused("deform case.json --out none/out.json", "file.write");
   refused("evaluate none", "file.missing");
+  folder.write("large.jsonl",
+               "{\"oversketch_script\": 1}\n{\"do\": \"document.new\", \"width\": 300, \"height\": 300}\n");
+  refused("run large.jsonl --memory 1", "image.too-large");
+  refused("render large.jsonl --out out.png --memory 1", "image.too-large");
   fs::create_directory(folder / "empty");
   refused("evaluate empty", "evaluate.no-cases");
   const std::string clone = "clone --source source.png --target target.png --out out.png ";

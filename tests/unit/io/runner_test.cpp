@@ -72,6 +72,29 @@ TEST_F(Runner, refuses_what_it_cannot_do) {
   EXPECT_EQ(refusal(body() + "{\"do\": \"open\", \"path\": \"target.png\"}"), "script.header");
 }
 
+TEST_F(Runner, opens_no_more_than_the_memory_it_is_given) {
+  ASSERT_TRUE(run(body() + "{\"do\": \"save\", \"path\": \"a.ora\"}\n{\"do\": \"save\", \"path\": \"a.jsonl\"}").ok());
+  const auto refusal_with = [&](std::size_t memory_bytes, const std::string& lines) {
+    folder.write("work.jsonl", kHeader + lines);
+    IoLimits limits;
+    limits.memory_bytes = memory_bytes;
+    Session fresh;
+    const auto done = run_script_file(fresh, folder / "work.jsonl", folder / "out", {}, limits);
+    return done.ok() ? "accepted" : done.error().code;
+  };
+  const auto bytes_of = [&](const char* name) { return load_image(folder / name)->pixels().values().size_bytes(); };
+  const std::size_t both = bytes_of("target.png") + bytes_of("source.png");
+  EXPECT_EQ(refusal_with(both, body()), "accepted");
+  EXPECT_EQ(refusal_with(both - 1, body()), "image.too-large");
+  EXPECT_EQ(refusal_with(both, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "accepted");
+  EXPECT_EQ(refusal_with(both - 1, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "image.too-large");
+  EXPECT_EQ(refusal_with(both - 1, "{\"do\": \"open\", \"path\": \"a.ora\"}"), "project.too-large");
+  const std::string canvas = "{\"do\": \"document.new\", \"width\": 100, \"height\": 10}\n";
+  EXPECT_EQ(refusal_with(16'000, canvas), "accepted");
+  EXPECT_EQ(refusal_with(15'999, canvas), "image.too-large");
+  EXPECT_EQ(refusal_with(31'999, canvas + canvas), "image.too-large");
+}
+
 TEST_F(Runner, writes_nothing_outside_its_folder) {
   for (const char* path : {"/tmp/oversketch-stray.png", "../stray.png", "a/../../stray.png", "", "a/", ".."}) {
     const std::string line = "{\"do\": \"export\", \"path\": \"" + std::string(path) + "\"}";
