@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace oversketch {
 namespace {
@@ -66,7 +67,8 @@ void label_compared(const CanvasPaint& paint, float x, LiveSession::Compare comp
   const auto rows = compare_rows();
   const auto row = std::ranges::find(rows, compare, &CompareRow::compare);
   const float gap = paint.look.px(8), pad = paint.look.px(7), height = ImGui::GetTextLineHeight() + paint.look.px(6);
-  const float top = paint.corner.y + paint.look.px(44);
+  // Below legends and captions, above the hint.
+  const float top = std::max(paint.corner.y + paint.look.px(44), paint.end.y - paint.look.px(84));
   const auto put = [&](std::string_view text, bool left) {
     const float width = ImGui::CalcTextSize(text.data(), text.data() + text.size()).x + 2 * pad;
     const float from = left ? x - gap - width : x + gap;
@@ -124,6 +126,19 @@ void draw_layer_overlays(const Scene& scene, const CanvasPaint& paint, Side side
   draw_overlays(paint, side, overlays, scene.canvases.overlays);
 }
 
+/// Where the target is its own source both curves lie on one picture: the outline is dashed, to be told from the
+/// sketch.
+void draw_source_overlays_on_target(const Scene& scene, const CanvasPaint& paint) {
+  if (scene.layer == nullptr || scene.tab.view.before_held) return;
+  Overlays shown = scene.state.overlays;
+  if (shown.shown && std::exchange(shown.curves, false) && !scene.layer->outline.empty()) {
+    paint.line(scene.layer->outline, true, faded(paint.look.curve_halo, 0.6f), 3);
+    paint.dashed_line(scene.layer->outline, true, paint.look.curve, 1.25f, 4);
+  }
+  const OverlayScene overlays{*scene.layer, scene.derived, shown, scene.tab.view.selected_pin};
+  draw_overlays(paint, Side::kSource, overlays, scene.canvases.overlays);
+}
+
 void draw_source(const Scene& scene, const Box& box, const ToolDrawing& drawing) {
   const CanvasPaint paint = paint_of(scene, box, Side::kSource);
   scene.list.PushClipRect(paint.corner, paint.end, true);
@@ -142,7 +157,7 @@ void draw_target(const Scene& scene, const Box& box, bool one_canvas, const Tool
   if (!scene.snapshot.document.empty())
     scene.pictures.draw_result(scene.list, *scene.tab.session, paint.view, paint.corner, paint.end);
   draw_compared(scene, paint);
-  if (one_canvas) draw_layer_overlays(scene, paint, Side::kSource);
+  if (one_canvas) draw_source_overlays_on_target(scene, paint);
   draw_layer_overlays(scene, paint, Side::kTarget);
   if (one_canvas) draw_tool(paint, Side::kSource, drawing);
   draw_tool(paint, Side::kTarget, drawing);

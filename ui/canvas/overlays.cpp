@@ -187,10 +187,11 @@ void draw_legends(const CanvasPaint& paint, std::span<const Legend> legends) {
   const ThemeLook& look = paint.look;
   const float pad = look.px(10), margin = look.px(10), bar = look.px(8), line = ImGui::GetTextLineHeight();
   const float width = look.px(190), height = line + look.px(5) + bar + look.px(4) + line + 2 * look.px(7);
-  float y = paint.corner.y + margin;
+  // Below the caption where both do not fit side by side.
+  const bool beside = paint.end.x - paint.corner.x > 2 * width + look.px(90);
+  float y = paint.corner.y + (beside ? margin : look.px(42));
   for (const Legend& legend : legends) {
     const ImVec2 low{paint.end.x - margin - width, y}, high{paint.end.x - margin, y + height};
-    // Below the caption where both do not fit side by side.
     if (low.x < paint.corner.x + margin || high.y > paint.end.y - margin) return;
     draw_plate(paint, low, high);
     const float left = low.x + pad, right = high.x - pad;
