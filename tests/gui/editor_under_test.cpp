@@ -142,6 +142,13 @@ bool EditorUnderTest::draw(const std::string& side, const Points& picture) {
   return rest();
 }
 
+bool EditorUnderTest::resize(int width, int height) {
+  hand_->resize(width, height);
+  return wait_for("the new size",
+                  [&](const Json& map) { return map.at("window")[2] == width && map.at("window")[3] == height; }) &&
+         rest();
+}
+
 std::optional<int> EditorUnderTest::close() {
   hand_->ask_to_close();
   return program_->wait();

@@ -59,6 +59,8 @@ public:
   Point to_window(const std::string& side, Point picture) const;
   /// Draws on a picture, and rests.
   bool draw(const std::string& side, const Points& picture);
+  /// Gives the window another size, and rests.
+  bool resize(int width, int height);
   /// Closes the window as a window manager would, and waits for the program's end.
   std::optional<int> close();
 

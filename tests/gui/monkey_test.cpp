@@ -189,10 +189,7 @@ private:
     static constexpr std::array<std::pair<int, int>, 5> kSizes{
         {{320, 240}, {1280, 800}, {1600, 1000}, {700, 500}, {1024, 700}}};
     const auto [width, height] = any_of(kSizes);
-    editor_.hand().resize(width, height);
-    return editor_.wait_for("the new size", [w = width, h = height](const Json& map) {
-      return map.at("window")[2] == w && map.at("window")[3] == h;
-    }) && editor_.rest();
+    return editor_.resize(width, height);
   }
 
   EditorUnderTest& editor_;
@@ -229,8 +226,7 @@ TEST_P(GuiMonkey, whatever_it_does_can_be_undone_saved_and_replayed) {
     if (!map.at("history").empty()) ASSERT_LT(map.at("cursor"), map.at("history").size());
   }
   ASSERT_TRUE(come_back(editor));
-  editor.hand().resize(1280, 800);
-  ASSERT_TRUE(editor.rest());
+  ASSERT_TRUE(editor.resize(1280, 800));
   if (editor.map().at("tabs").empty()) ASSERT_TRUE(editor.click("empty.sample"));
 
   const Json before = editor.map();
@@ -254,7 +250,7 @@ TEST_P(GuiMonkey, whatever_it_does_can_be_undone_saved_and_replayed) {
   // The others go without a word.
   for (std::size_t tabs = editor.map().at("tabs").size(); tabs > 1; --tabs) {
     const Json map = editor.map();
-    if (map.at("tabs").at(map.at("tab").get<std::size_t>()) == project.filename().string())
+    if (map.at("tabs").at(map.at("tab").get<std::size_t>()) == project.stem().string())
       ASSERT_TRUE(editor.press("ctrl+Tab"));
     ASSERT_TRUE(editor.press("ctrl+w"));
     if (!editor.map().at("question").is_null()) ASSERT_TRUE(editor.click("question.discard"));
