@@ -7,6 +7,7 @@
 
 #include "tests/fault/memory_folder.h"
 #include "tests/fault/work.h"
+#include "tests/support/documents.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -119,12 +120,28 @@ void expect_project(const fs::path& folder, unsigned seed, const LastWords& word
   if (words.save_done > 0) EXPECT_TRUE(fs::exists(folder / "work.ora")) << "a save that was done is gone";
 }
 
+int count_half_written(const fs::path& folder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder))
+    count += entry.path().extension() == ".tmp" ? 1 : 0;
+  return count;
+}
+
+/// Whoever saves there next clears away what the dead one left half-written.
+void expect_cleared(const fs::path& folder) {
+  Session session;
+  ASSERT_TRUE(session.execute(new_document(8, 8)).ok());
+  const auto saved = save_project(session, folder / "next.ora");
+  ASSERT_TRUE(saved.ok()) << to_string(saved.error());
+  EXPECT_EQ(count_half_written(folder), 0);
+}
+
 TEST(Killed, at_any_moment_a_process_leaves_the_project_whole_and_loses_one_step_at_most) {
   use_folders_in_memory();
   const char* given = std::getenv("OVERSKETCH_KILLS");
   const int kills = given == nullptr ? 30 : std::atoi(given);
   std::mt19937 random(2026);
-  int in_save = 0, with_project = 0;
+  int in_save = 0, with_project = 0, half_written = 0;
   for (int i = 0; i < kills; ++i) {
     const unsigned seed = 1 + static_cast<unsigned>(i % 7);
     const int lines = 1 + static_cast<int>(random() % 60);
@@ -137,10 +154,13 @@ TEST(Killed, at_any_moment_a_process_leaves_the_project_whole_and_loses_one_step
     with_project += words.save_done > 0 ? 1 : 0;
     expect_journal(folder.path(), seed, words);
     expect_project(folder.path(), seed, words);
+    half_written += count_half_written(folder.path());
+    expect_cleared(folder.path());
     if (HasFailure()) break;
   }
   RecordProperty("kills", kills);
   RecordProperty("during_a_save", in_save);
+  RecordProperty("half_written_files", half_written);
   EXPECT_GT(in_save, kills / 20) << "kills hit saves too";
   EXPECT_GT(with_project, kills / 2);
 }
