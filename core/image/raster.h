@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/bulk_allocator.h"
 #include "core/base/check.h"
 #include "core/base/rect.h"
 
@@ -9,6 +10,9 @@
 
 namespace oversketch {
 
+/// Asks for pixels that hold anything, for who sets each of them before it is read.
+struct Unset {};
+
 /// width × height values, row by row, no padding: the mutable workshop form of pictures and masks.
 template <class T>
 class Raster {
@@ -17,6 +21,7 @@ public:
   /// Sizes must not be negative (CHECK).
   Raster(int width, int height, T fill = T{})
       : width_(width), height_(height), values_(checked_count(width, height), fill) {}
+  Raster(int width, int height, Unset) : width_(width), height_(height), values_(checked_count(width, height)) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -43,7 +48,7 @@ private:
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> values_;
+  std::vector<T, BulkAllocator<T>> values_;
 };
 
 } // namespace oversketch

@@ -67,6 +67,7 @@ public:
     const auto first = std::ranges::partition_point(wanted_.runs(), row_is_before(y0));
     const auto end = std::ranges::partition_point(wanted_.runs(), row_is_before(y1));
     band.uncovered = painter_.paint(std::span(first, end), band.spans, out_);
+    clear_between(std::span(first, end), y0, y1);
   }
 
   bool has_cells() const {
@@ -93,6 +94,20 @@ private:
     int x = 0;
     int y = 0;
   };
+
+  /// Rows y0 ≤ y < y1 where none of the runs, which are theirs, lies.
+  void clear_between(std::span<const Mask::Run> runs, int y0, int y1) {
+    auto run = runs.begin();
+    for (int y = y0; y < y1; ++y) {
+      const std::span<Rgba> row = out_.pixels.row(y - out_.rect.y);
+      auto from = row.begin();
+      for (; run != runs.end() && run->y == y; ++run) {
+        std::fill(from, row.begin() + (run->x0 - out_.rect.x), Rgba{0, 0, 0, 0});
+        from = row.begin() + (run->x1 - out_.rect.x);
+      }
+      std::fill(from, row.end(), Rgba{0, 0, 0, 0});
+    }
+  }
 
   Rgba& pixel(int x, int y) { return out_.pixels.at(x - out_.rect.x, y - out_.rect.y); }
 
@@ -145,7 +160,7 @@ Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mes
   const RegionPainter painter(source, mesh, deformed, options);
   const CellRaster raster(mesh, deformed, painter.inverses(), *rect, source_region);
   const Mask wanted = grown(mask);
-  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Rgba{0, 0, 0, 0})};
+  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Unset{})};
   BandedWarp warp(painter, raster, wanted, out);
   run_parallel(warp.count(), options.threads, [&](int band) {
     if (!watch.stopped()) warp.draw(band);
@@ -160,7 +175,7 @@ Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mes
 Result<WarpedRegion> unwarped_region(const Image& source, const Mask& mask) {
   const Result<Rect> rect = region_rect(source, mask);
   if (!rect) return rect.error();
-  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height)};
+  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Unset{})};
   for (int y = 0; y < rect->height; ++y) {
     const std::span<const Rgba> from = source.pixels().row(std::clamp(rect->y + y, 0, source.height() - 1));
     const std::span<Rgba> to = out.pixels.row(y);
