@@ -115,6 +115,8 @@ Result<Json> bench(const BenchArguments& options, const Watch& watch) {
   input.watch = watch;
   input.watch.times = nullptr;
   input.watch.progress = {};
+  // Goals are for one core.
+  if (input.watch.threads == 0) input.watch.threads = 1;
   if (std::any_of(groups.begin(), groups.end(), [](const BenchGroup& group) { return group.uses_cases; })) {
     auto cases = load_cases(options.cases, watch);
     if (!cases) return cases.error();

@@ -18,6 +18,7 @@ namespace oversketch::cli {
 namespace {
 
 constexpr int kRefused = 1, kUsage = 2;
+constexpr int kMostThreads = 1024;
 
 /// Control characters, as a file's name may have them, are shown and not sent to the terminal.
 std::string printable(const std::string& text) {
@@ -93,7 +94,7 @@ CLI::App* Cli::add(const std::string& name, const std::string& description, cons
   sub->add_option("--report", report_path_, "write what was done and the times as JSON")->type_name("FILE");
   sub->add_option("--threads", threads_, "use at most N threads (0: as many as there are cores)")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, kMostThreads));
   return sub;
 }
 
@@ -138,6 +139,7 @@ int Cli::perform(const std::string& name, const std::function<Result<Json>(const
   Watch watch;
   watch.times = &times;
   watch.progress = terminal_progress();
+  watch.threads = threads_;
   const auto start = std::chrono::steady_clock::now();
   const auto done = guarded(work, watch);
   clear_progress();
@@ -149,6 +151,7 @@ int Cli::perform(const std::string& name, const std::function<Result<Json>(const
   Json report;
   report["version"] = kVersion;
   report["command"] = name;
+  report["threads"] = watch.threads_up_to(kMostThreads);
   report["wall_ms"] = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   report["stages_ms"] = Json::object();
   for (const auto& [stage, ms] : times.stages_ms)

@@ -64,8 +64,9 @@ Result<Json> warp(const WarpArguments& options, const Watch& watch) {
   if (!mask.empty()) {
     const StageTimer timer(watch.times, "warp");
     const Mask region = rasterize_polygon(*outline, image->rect());
-    const auto warped =
-        warp_region(*image, *deformation.mesh, deformation.positions, mask, watch, &region, options.warp);
+    WarpOptions how = options.warp;
+    how.threads = watch.threads_up_to(2);
+    const auto warped = warp_region(*image, *deformation.mesh, deformation.positions, mask, watch, &region, how);
     if (!warped) return warped.error();
     for (const Mask::Run& run : mask.runs())
       for (int x = run.x0; x < run.x1; ++x)

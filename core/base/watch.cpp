@@ -1,6 +1,7 @@
 #include "core/base/watch.h"
 
 #include <algorithm>
+#include <thread>
 
 namespace oversketch {
 
@@ -18,6 +19,11 @@ double StageTimes::total_ms() const {
   for (const auto& [stage, ms] : stages_ms)
     sum += ms;
   return sum;
+}
+
+int Watch::threads_up_to(int most) const {
+  return std::clamp(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()), 1,
+                    std::max(1, most));
 }
 
 Error cancelled() {

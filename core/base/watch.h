@@ -20,9 +20,9 @@ struct StageTimes {
   double total_ms() const;
 };
 
-/// How long work is watched over: it can be stopped, says how far it is, and leaves its times.
+/// How long work is watched over: it can be stopped, says how far it is, leaves its times, and is held to some threads.
 ///
-/// A default-made Watch never stops and tells nobody.  Copies share the stop token.
+/// A default-made Watch never stops, tells nobody and uses all cores.  Copies share the stop token.
 /// @threads stopped() may be asked from any thread; the rest by the thread that does the work.
 struct Watch {
   std::stop_token stop;
@@ -30,7 +30,12 @@ struct Watch {
   std::function<void(double done, std::string_view stage)> progress;
   /// Where stage times are added; may be null.
   StageTimes* times = nullptr;
+  /// How many threads the work may use, the calling one included; 0: as many as there are cores.  The results are the
+  /// same bits with any number.
+  int threads = 0;
 
+  /// How many to use where more than `most` would not pay: at least 1.
+  int threads_up_to(int most) const;
   bool stopped() const { return stop.stop_requested(); }
   void report(double done, std::string_view stage) const {
     if (progress) progress(done, stage);

@@ -10,6 +10,9 @@
 namespace oversketch {
 namespace {
 
+/// Of a solution on the pixels; more hardly pays beside the memory's speed.
+constexpr int kMostThreads = 2;
+
 bool is_finite(const Rgba& p) {
   // 0 · x is not 0 for infinite x and for not-a-number.
   return p.r * 0 + p.g * 0 + p.b * 0 + p.a * 0 == 0;
@@ -86,7 +89,8 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
 
   Correction correction;
   if (needs_solution(options)) {
-    Result<Correction> solved = solve_correction(pair, system, options, quality, 1, watch);
+    Result<Correction> solved =
+        solve_correction(pair, system, options, quality, watch.threads_up_to(kMostThreads), watch);
     if (!solved) return solved.error();
     correction = std::move(*solved);
   }

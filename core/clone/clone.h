@@ -45,7 +45,8 @@ struct CloneReport {
 ///   And the errors of the system's parts that are made for it.
 /// @cost one pass of right-hand side, solution and painting; 112 bytes a pixel while it runs (96 more before that in
 ///   mode mixed).
-/// @threads one call a target at a time; source and system may be shared.
+/// @threads one call a target at a time; source and system may be shared.  Works on up to 4 threads, as the watch
+/// allows.
 Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source, int dx, int dy,
                                const CloneSystem& system, const BlendOptions& options = {},
                                CloneQuality quality = CloneQuality::kExport, const Watch& watch = {});

@@ -1,17 +1,17 @@
 #include "core/clone/live.h"
 
 #include "core/base/check.h"
+#include "core/base/parallel.h"
 #include "core/clone/correction.h"
 #include "core/clone/live_blend.h"
 #include "core/clone/live_data.h"
 #include "core/clone/live_read.h"
 #include "core/clone/paint.h"
 #include "core/clone/placed_pair.h"
+#include "core/clone/row_parts.h"
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <thread>
 
 namespace oversketch {
 namespace {
@@ -89,22 +89,11 @@ RingValues ring_values(const Raster<Rgba8>& below, const Data& region, Place at,
   return out;
 }
 
-/// The rows in parts with about as many pixels each; the first is painted by this thread.
-void in_parts(std::span<const LiveRow> rows, int threads, const std::function<void(std::span<const LiveRow>)>& paint) {
-  std::size_t left = 0;
-  for (const LiveRow& row : rows)
-    left += static_cast<std::size_t>(row.count);
-  std::vector<std::jthread> others;
-  for (int part = threads; part > 1; --part) {
-    const std::size_t share = left / static_cast<std::size_t>(part);
-    std::size_t taken = 0, end = rows.size();
-    while (end > 0 && taken < share)
-      taken += static_cast<std::size_t>(rows[--end].count);
-    others.emplace_back([&paint, own = rows.subspan(end)] { paint(own); });
-    rows = rows.first(end);
-    left -= taken;
-  }
-  paint(rows);
+/// Calls paint(part) for parts with about as many pixels each, one a thread.
+template <class Paint>
+void in_parts(const std::vector<LiveRow>& rows, int threads, Paint paint) {
+  const auto parts = cut_rows(std::span(rows), threads, [](const LiveRow& row) { return row.count; });
+  run_parallel(static_cast<int>(parts.size()), threads, [&](int i) { paint(parts[static_cast<std::size_t>(i)]); });
 }
 
 bool needs_solution(const BlendOptions& options) {

@@ -1,10 +1,13 @@
 #include "core/clone/paint.h"
 
+#include "core/base/parallel.h"
 #include "core/clone/feather.h"
+#include "core/clone/row_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace oversketch {
@@ -34,13 +37,23 @@ Rgba over(const Channels& colour, double w, const Rgba& below) {
   return {mix(colour.v[0], below.r), mix(colour.v[1], below.g), mix(colour.v[2], below.b), static_cast<float>(alpha)};
 }
 
+/// Weights of the strength or of the paste, by pixel number; empty: all 1.
+std::vector<double> fading_weights(const Painting& painting) {
+  const BlendOptions& options = painting.options;
+  const bool fades = options.mode == BlendMode::kNone || options.strength < 1;
+  return fades && options.feather_px > 0 ? inside_weights(painting.graph, options.feather_px) : std::vector<double>();
+}
+
 class Painter {
 public:
-  explicit Painter(const Painting& painting)
-      : pair_(painting.pair), graph_(painting.graph), options_(painting.options), correction_(painting.correction) {
+  /// @param inside  fading_weights; must outlive this.
+  Painter(const Painting& painting, const std::vector<double>& inside)
+      : pair_(painting.pair),
+        graph_(painting.graph),
+        options_(painting.options),
+        correction_(painting.correction),
+        inside_(inside) {
     if (correction_ != nullptr && correction_->is_zero()) correction_ = nullptr;
-    const bool fades = options_.mode == BlendMode::kNone || options_.strength < 1;
-    if (fades && options_.feather_px > 0) inside_ = inside_weights(painting.graph, options_.feather_px);
   }
 
   /// Calls `take(pixel)` for the pixels of a run, from left to right; (dx, dy) as in paint().
@@ -85,13 +98,24 @@ private:
   /// Of the whole run that is painted, and the number of its first pixel.
   std::vector<Float4> u_;
   int first_ = 0;
-  /// Empty: all 1.
-  std::vector<double> inside_;
+  const std::vector<double>& inside_;
 };
 
-float largest_of(const Rgba& p) {
-  return std::max({std::abs(p.r), std::abs(p.g), std::abs(p.b)});
-}
+/// What one thread has painted.
+struct PaintedPart {
+  std::vector<Rgba> pixels;
+  float largest = 0;
+  bool is_finite = true;
+
+  void add(const Rgba& p) {
+    pixels.push_back(p);
+    is_finite &= std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b);
+    largest = std::max({largest, std::abs(p.r), std::abs(p.g), std::abs(p.b)});
+  }
+};
+
+/// More hardly pays beside the memory's speed.
+constexpr int kMostThreads = 4;
 
 } // namespace
 
@@ -115,27 +139,33 @@ Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy) {
 
 Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch) {
   const std::vector<PaintedRun> runs = clip_runs(target, painting.graph, dx, dy);
-  std::size_t count = 0;
-  for (const PaintedRun& run : runs)
-    count += static_cast<std::size_t>(run.at.length());
+  const int threads = watch.threads_up_to(kMostThreads);
+  const auto parts = cut_rows(std::span(runs), threads, [](const PaintedRun& run) { return run.at.length(); });
+  const std::vector<double> inside = fading_weights(painting);
   // Set aside first, so that a result that overflows leaves the target as it was.
-  std::vector<Rgba> result;
-  result.reserve(count);
-  Painter painter(painting);
+  std::vector<PaintedPart> done(parts.size());
+  run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
+    const auto part = static_cast<std::size_t>(i);
+    Painter painter(painting, inside);
+    std::size_t count = 0;
+    for (const PaintedRun& run : parts[part])
+      count += static_cast<std::size_t>(run.at.length());
+    done[part].pixels.reserve(count);
+    for (const PaintedRun& run : parts[part])
+      painter.run(run, dx, dy, [&](const Rgba& pixel) { done[part].add(pixel); });
+  });
   float largest = 0;
-  bool finite = true;
-  for (const PaintedRun& run : runs)
-    painter.run(run, dx, dy, [&](const Rgba& pixel) {
-      result.push_back(pixel);
-      finite &= std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
-      largest = std::max(largest, largest_of(pixel));
-    });
-  if (!finite) return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
+  for (const PaintedPart& part : done) {
+    if (!part.is_finite) return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
+    largest = std::max(largest, part.largest);
+  }
   if (watch.stopped()) return cancelled();
-  auto from = result.begin();
-  for (const PaintedRun& run : runs) {
-    std::copy(from, from + run.at.length(), &target.at(run.at.x0, run.at.y));
-    from += run.at.length();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto from = done[i].pixels.begin();
+    for (const PaintedRun& run : parts[i]) {
+      std::copy(from, from + run.at.length(), &target.at(run.at.x0, run.at.y));
+      from += run.at.length();
+    }
   }
   return static_cast<double>(largest);
 }

@@ -37,7 +37,7 @@ struct ProjectContents {
 Result<ProjectContents> gather_project(Session& session, const KeptHistory& kept = {}, const Watch& watch = {});
 
 struct SaveOptions {
-  /// 0: as many as there are cores, 4 at most.
+  /// 0: as many as the watch allows; 4 at most.
   int threads = 0;
   KeptHistory history{};
 };

@@ -102,7 +102,8 @@ Result<LoadedProject> load_project(const fs::path& path, const LoadOptions& opti
     return loaded;
   }
   if (!text) return text.error();
-  const auto images = load_pictures(*archive, text->pictures(), choose_threads(options.threads), watch);
+  const auto images = load_pictures(*archive, text->pictures(),
+                                    choose_threads(options.threads > 0 ? options.threads : watch.threads), watch);
   if (!images) return images.error();
   auto saved = text->session(*images);
   if (!saved) return at(archive->place(kDocument), saved.error());

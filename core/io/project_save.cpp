@@ -143,7 +143,7 @@ Result<std::vector<ArchivePart>> make_parts(const ProjectContents& contents, con
     encoder.add_png(names.back(), contents.layers[i].pixels, PngAlpha::kAlways);
   }
   encoder.add_thumbnail(contents.merged);
-  auto encoded = encoder.run(choose_threads(options.threads), watch);
+  auto encoded = encoder.run(choose_threads(options.threads > 0 ? options.threads : watch.threads), watch);
   if (!encoded) return encoded.error();
 
   std::vector<ArchivePart> parts;

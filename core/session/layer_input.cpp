@@ -1,7 +1,5 @@
 #include "core/session/layer_input.h"
 
-#include <thread>
-
 namespace oversketch {
 namespace {
 
@@ -79,8 +77,6 @@ DeformOptions deform_options(const Layer& layer) {
 WarpOptions warp_options(const Layer& layer) {
   WarpOptions options;
   options.sampling = sampling_of(layer.settings.sampling);
-  // More hardly pays beside the memory's speed.
-  options.threads = std::thread::hardware_concurrency() > 1 ? 2 : 1;
   return options;
 }
 

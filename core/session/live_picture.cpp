@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
 
 namespace oversketch::live {
 
@@ -17,10 +16,8 @@ private:
   Clock::time_point start_ = Clock::now();
 };
 
-/// Two threads paint where there are two; more hardly pays beside the memory's speed.
-int painting_threads() {
-  return std::thread::hardware_concurrency() > 1 ? 2 : 1;
-}
+/// More hardly pays beside the memory's speed.
+constexpr int kPaintingThreads = 2;
 
 Hash name_of(const DrawnLayer& layer) {
   const BlendOptions& o = layer.options;
@@ -150,17 +147,19 @@ std::vector<bool> Picture::list_dirty(const std::vector<Painted>& wanted, std::s
   return again;
 }
 
-Result<void> Picture::paint_layer(Painted& layer, Raster<Rgba8>& pixels) {
+Result<void> Picture::paint_layer(Painted& layer, Raster<Rgba8>& pixels, const Watch& watch) {
   const Stopwatch stopwatch;
-  const auto done = clone_live(pixels, pixels, *layer.region, *layer.layer.shape->system, layer.layer.dx,
-                               layer.layer.dy, layer.layer.options, layer.quality, painting_threads());
+  const auto done =
+      clone_live(pixels, pixels, *layer.region, *layer.layer.shape->system, layer.layer.dx, layer.layer.dy,
+                 layer.layer.options, layer.quality, watch.threads_up_to(kPaintingThreads));
   if (!done) return at("layer " + to_string(layer.id), done.error());
   layer.timing.blend_ms = stopwatch.ms();
   return {};
 }
 
 /// The target with the first `count` layers painted on.
-Result<const Raster<Rgba8>*> Picture::picture_below(std::vector<Painted>& wanted, std::size_t count) {
+Result<const Raster<Rgba8>*> Picture::picture_below(std::vector<Painted>& wanted, std::size_t count,
+                                                    const Watch& watch) {
   if (count == 0) return target_.get();
   std::vector<Hash> names;
   for (std::size_t i = 0; i < count; ++i)
@@ -171,7 +170,7 @@ Result<const Raster<Rgba8>*> Picture::picture_below(std::vector<Painted>& wanted
   for (std::size_t i = 0; i < count; ++i) {
     Painted again = wanted[i];
     again.quality = painted_[i].quality;
-    if (auto done = paint_layer(again, below_); !done) return done.error();
+    if (auto done = paint_layer(again, below_, watch); !done) return done.error();
   }
   below_names_ = std::move(names);
   return &below_;
@@ -203,7 +202,7 @@ Result<void> Picture::paint(std::shared_ptr<const Raster<Rgba8>> target, std::sp
     first = first_changed(*wanted);
     again = list_dirty(*wanted, first, dirty);
     if (dirty.empty()) return {};
-    const auto found = picture_below(*wanted, first);
+    const auto found = picture_below(*wanted, first, watch);
     if (!found) return found.error();
     below = *found;
     copy_rect(*below, pixels_, dirty);
@@ -216,7 +215,7 @@ Result<void> Picture::paint(std::shared_ptr<const Raster<Rgba8>> target, std::sp
   sound_ = false;
   for (std::size_t i = 0; i < wanted->size(); ++i) {
     if (i >= first && again[i]) {
-      if (auto done = paint_layer((*wanted)[i], pixels_); !done) return done.error();
+      if (auto done = paint_layer((*wanted)[i], pixels_, watch); !done) return done.error();
     } else {
       (*wanted)[i].quality = painted_[i].quality;
       (*wanted)[i].timing = painted_[i].timing;

@@ -63,8 +63,8 @@ private:
   Result<std::shared_ptr<const LiveRegion>> region_of(const DrawnLayer& layer);
   std::size_t first_changed(const std::vector<Painted>& wanted) const;
   std::vector<bool> list_dirty(const std::vector<Painted>& wanted, std::size_t first, Rect& dirty) const;
-  Result<const Raster<Rgba8>*> picture_below(std::vector<Painted>& wanted, std::size_t count);
-  static Result<void> paint_layer(Painted& layer, Raster<Rgba8>& pixels);
+  Result<const Raster<Rgba8>*> picture_below(std::vector<Painted>& wanted, std::size_t count, const Watch& watch);
+  static Result<void> paint_layer(Painted& layer, Raster<Rgba8>& pixels, const Watch& watch);
 
   std::shared_ptr<const Raster<Rgba8>> target_;
   Raster<Rgba8> pixels_;

@@ -213,6 +213,23 @@ TEST_F(CommandLine, clones_over_any_edge_and_leaves_the_rest_alone) {
   }
 }
 
+TEST_F(CommandLine, uses_as_many_threads_as_it_is_told_with_the_same_bits) {
+  ASSERT_TRUE(save_image(wavy_image(420, 400, 1), folder / "large.png").ok());
+  ASSERT_TRUE(save_image(disc_mask(420, 400, 190), folder / "disc.png").ok());
+  for (const char* mode : {"import", "mixed"}) {
+    std::string alone;
+    for (const int threads : {1, 2, 5}) {
+      const Outcome outcome = run("clone --source large.png --target large.png --mask disc.png --at 9,4 --depth 16 "
+                                  "--out out.png --report r.json --mode " +
+                                  std::string(mode) + " --threads " + std::to_string(threads));
+      ASSERT_EQ(outcome.code, 0) << outcome.text;
+      EXPECT_EQ(json::parse(folder.read("r.json"))["threads"], threads);
+      if (threads == 1) alone = folder.read("out.png");
+      EXPECT_EQ(folder.read("out.png"), alone) << mode << ", " << threads;
+    }
+  }
+}
+
 TEST_F(CommandLine, warps_a_region_alone) {
   folder.write("o.json", points(blob({45, 35}, 25)).dump());
   folder.write("s.json", json{{"sketch", points(blob({70, 60}, 35, 0.25))}}.dump());

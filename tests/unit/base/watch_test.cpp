@@ -45,6 +45,16 @@ TEST(WatchTest, ADefaultOneNeverStopsAndTellsNobody) {
   watch.report(0.5, "solve");
 }
 
+TEST(WatchTest, HoldsWorkToItsThreads) {
+  Watch watch;
+  EXPECT_EQ(watch.threads_up_to(1), 1);
+  EXPECT_GE(watch.threads_up_to(64), 1);
+  watch.threads = 3;
+  EXPECT_EQ(watch.threads_up_to(2), 2);
+  EXPECT_EQ(watch.threads_up_to(8), 3);
+  EXPECT_EQ(watch.threads_up_to(0), 1);
+}
+
 TEST(WatchTest, CopiesShareTheStopTokenAndTellProgress) {
   std::stop_source source;
   double done = 0;
