@@ -43,17 +43,36 @@ Result<Correction> span_membrane(const PlacedPair& pair, const CloneSystem& syst
   return out;
 }
 
+/// In four sums, so that none waits for the one before.
+void write_ramp(const Float4& value, const Float4& step, int count, Float4* to) {
+  const Float4 two = step + step, four = two + two;
+  Float4 a = value, b = value + step, c = value + two, d = b + two;
+  int i = 0;
+  for (; i + 4 <= count; i += 4, a += four, b += four, c += four, d += four)
+    to[i] = a, to[i + 1] = b, to[i + 2] = c, to[i + 3] = d;
+  for (; i < count; ++i, a = b, b = c, c = d)
+    to[i] = a;
+}
+
 /// b of u harmonic: the ring's values beside each pixel.
 void set_membrane_side(const std::vector<Float4>& ring, const PixelGraph& graph, MultigridSolve& solve) {
+  // Zeros but while a run's few others stand in it.
   std::vector<Float4> line;
   std::size_t edge = 0;
   const std::vector<Mask::Run>& runs = graph.mask.runs();
   for (std::size_t run = 0; run < runs.size(); ++run) {
-    const int first = graph.first[run], count = runs[run].x1 - runs[run].x0;
-    line.assign(static_cast<std::size_t>(count), Float4{});
-    for (; edge < graph.ring.size() && graph.ring[edge].pixel < first + count; ++edge)
-      line[static_cast<std::size_t>(graph.ring[edge].pixel - first)] += ring[edge];
-    solve.set_side(run, line);
+    const int first = graph.first[run], end = first + runs[run].x1 - runs[run].x0;
+    const auto at = [&](std::size_t of) -> Float4& {
+      return line[static_cast<std::size_t>(graph.ring[of].pixel - first)];
+    };
+    const auto count = static_cast<std::size_t>(end - first);
+    if (line.size() < count) line.resize(count);
+    const std::size_t begin = edge;
+    for (; edge < graph.ring.size() && graph.ring[edge].pixel < end; ++edge)
+      at(edge) += ring[edge];
+    solve.set_side(run, std::span(line).first(count));
+    for (std::size_t done = begin; done < edge; ++done)
+      at(done) = Float4{};
   }
 }
 
@@ -68,18 +87,20 @@ void start_from(const Correction& start, const Mask& mask, MultigridSolve& solve
 } // namespace
 
 void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float4>& u) const {
-  u.clear();
-  if (membrane)
-    membrane->walk(
-        values, index, run.y, [&](const Float4* at, int count) { u.insert(u.end(), at, at + count); },
-        [&](Float4 value, const Float4& step, int count) {
-          u.resize(u.size() + static_cast<std::size_t>(count));
-          for (Float4* to = u.data() + u.size() - count; to != u.data() + u.size(); ++to, value += step)
-            *to = value;
-        });
+  const auto count = static_cast<std::size_t>(run.x1 - run.x0);
+  if (pixels || membrane)
+    u.resize(count);
   else
-    u.resize(static_cast<std::size_t>(run.x1 - run.x0));
-  if (pixels) pixels->get(index, u);
+    u.assign(count, Float4{});
+  if (pixels) return pixels->get(index, u);
+  if (!membrane) return;
+  Float4* to = u.data();
+  membrane->walk(
+      values, index, run.y, [&](const Float4* at, int length) { to = std::copy_n(at, length, to); },
+      [&](const Float4& value, const Float4& step, int length) {
+        write_ramp(value, step, length, to);
+        to += length;
+      });
 }
 
 SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {

@@ -54,7 +54,6 @@ class Coarsener {
 public:
   Coarsener(GridMaking& fine, double screening) : made_(fine), fine_(fine.level) {
     coarse_.spacing = 2 * fine.spacing;
-    coarse_.is_tricky = fine.is_tricky;
     coarse_.level.diagonal = static_cast<float>(4 + screening * coarse_.spacing * coarse_.spacing);
   }
 

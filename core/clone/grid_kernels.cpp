@@ -56,6 +56,24 @@ OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict gre
   }
 }
 
+OVERSKETCH_INLINE void add_pairs_body(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,
+                                      const float* down, std::size_t down_stride, std::size_t count) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    float* __restrict const to = sum + k * sum_stride;
+    const float *const from = along + k * along_stride, *const more = down + k * down_stride;
+    for (std::size_t i = 0; i < count; ++i)
+      to[i] = (from[i + 1] - from[i]) + more[i];
+  }
+}
+
+OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
+  // 0 · x is not 0 for infinite x and for not-a-number.
+  int bad = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    bad |= 0.0f * values[i] != 0 ? 1 : 0;
+  return bad == 0;
+}
+
 #define OVERSKETCH_KERNELS(name, target)                                                                               \
   target void relax_##name(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse) {     \
     relax_body(u, b, at, count, inverse);                                                                              \
@@ -73,7 +91,15 @@ OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict gre
   target void surplus_##name(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {        \
     surplus_body(out, out + stride, out + 2 * stride, p, q, count);                                                    \
   }                                                                                                                    \
-  constexpr GridKernels k_##name = {relax_##name, relax_zero_##name, residual_##name, add_half_##name, surplus_##name};
+  target void add_pairs_##name(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,       \
+                               const float* down, std::size_t down_stride, std::size_t count) {                        \
+    add_pairs_body(sum, sum_stride, along, along_stride, down, down_stride, count);                                    \
+  }                                                                                                                    \
+  target bool are_finite_##name(const float* values, std::size_t count) {                                              \
+    return are_finite_body(values, count);                                                                             \
+  }                                                                                                                    \
+  constexpr GridKernels k_##name = {relax_##name,   relax_zero_##name, residual_##name,  add_half_##name,              \
+                                    surplus_##name, add_pairs_##name,  are_finite_##name};
 
 OVERSKETCH_KERNELS(plain, )
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -33,6 +33,11 @@ struct GridKernels {
   /// For `count` pairs of pixels p, q: (f*_p − f*_q) − (g_p − g_q) where the target is stronger (guidance.h), else 0.
   /// Three planes, `stride` floats apart.
   void (*surplus)(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count);
+  /// sum_i = (along_{i + 1} − along_i) + down_i of three planes each, all `stride`s in floats.
+  void (*add_pairs)(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride, const float* down,
+                    std::size_t down_stride, std::size_t count);
+  /// Whether all are finite numbers.
+  bool (*are_finite)(const float* values, std::size_t count);
 
   /// The fastest for this processor.
   static GridKernels choose();

@@ -119,8 +119,8 @@ struct GridMaking {
   std::vector<GridBorder> border;
   /// Side of a cell, px.
   double spacing = 1;
-  /// Whether something was lost between the nodes, or walls between them are thin, on this level or a finer one (the
-  /// pixels themselves apart): the coarse solution may be far off.
+  /// Whether something was lost between its nodes, or walls between them are thin (never of the pixels themselves):
+  /// what is solved on it may be far off for the finer level.
   bool is_tricky = false;
 };
 

@@ -1,13 +1,17 @@
 #include "core/clone/grid_pass.h"
 
+#include "core/base/parallel.h"
+
 #include <algorithm>
-#include <thread>
 
 namespace oversketch {
 namespace {
 
 /// Starting a thread costs as much as this many nodes of a pass.
 constexpr int kLeastNodesPerThread = 30'000;
+
+/// How many rows before they are needed values are fetched.
+constexpr int kAhead = 2;
 
 /// Rows at which bands begin, and one past the last row at the end; bands of about as many nodes.
 std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
@@ -32,11 +36,13 @@ std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
 
 void run_band(GridRows& rows, const std::vector<RowStage>& stages, int begin, int end, bool is_first, bool is_last) {
   const int lag = stages.back().lag;
-  for (int head = begin; head < end + lag; ++head)
+  for (int head = begin; head < end + lag; ++head) {
+    if (head + kAhead < end) rows.fetch(head + kAhead);
     for (const RowStage& stage : stages) {
       const int row = head - stage.lag;
       if (row >= begin + (is_first ? 0 : stage.lag) && row < end - (is_last ? 0 : stage.lag)) stage.run(rows, row);
     }
+  }
 }
 
 } // namespace
@@ -45,16 +51,11 @@ void run_stages(const GridLevel& level, GridValues values, const GridKernels& ke
                 const std::vector<RowStage>& stages, int threads) {
   const std::vector<int> begin = cut_bands(level, threads, stages.back().lag);
   const std::size_t bands = begin.size() - 1;
-  const auto work = [&](std::size_t band) {
+  run_parallel(static_cast<int>(bands), threads, [&](int i) {
+    const auto band = static_cast<std::size_t>(i);
     GridRows rows(level, values, kernels, zeros);
     run_band(rows, stages, begin[band], begin[band + 1], band == 0, band + 1 == bands);
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t band = 1; band < bands; ++band)
-      others.emplace_back(work, band);
-    work(0);
-  }
+  });
   for (std::size_t band = 1; band < bands; ++band) {
     GridRows rows(level, values, kernels, zeros);
     for (const RowStage& stage : stages)

@@ -1,5 +1,7 @@
 #include "core/clone/grid_rows.h"
 
+#include "core/clone/float4.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,12 +15,46 @@ std::size_t at_slot(int slot) {
   return kC * static_cast<std::size_t>(slot);
 }
 
-/// Values of a run between the order of its slots (1st, 3rd, 5th…, 2nd, 4th…) and from left to right.
-template <class Copy>
-void for_slots(int length, Copy copy) {
-  const int half = (length + 1) / 2;
-  for (int i = 0; i < length; ++i)
-    copy(at_slot((i & 1) == 0 ? i / 2 : half + i / 2), at_slot(i));
+using Floats = Float4::Lanes;
+
+Floats load(const float* from) {
+  Floats v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+/// Three of the four numbers.  Where the slot after it is written later, all four may go.
+void store(float* slot, const Floats& v) {
+  std::memcpy(slot, &v, kC * sizeof(float));
+}
+void store_over(float* slot, const Floats& v) {
+  std::memcpy(slot, &v, sizeof v);
+}
+
+/// Values from left to right become those of a run's slots (1st, 3rd, 5th…, 2nd, 4th…).
+/// @param line  readable one float beyond its end.
+void split(const float* line, int count, float* slots) {
+  const auto every_second = [](const float* from, int n, float* to) {
+    for (int i = 0; i + 1 < n; ++i, from += 2 * kC, to += kC)
+      store_over(to, load(from));
+    if (n > 0) store(to, load(from));
+  };
+  const int half = (count + 1) / 2;
+  every_second(line, half, slots);
+  every_second(line + kC, count - half, slots + at_slot(half));
+}
+
+/// The reverse, times `factor`.
+/// @param slots  readable one float beyond their end.
+void join(const float* slots, int count, float factor, float* line) {
+  const float *even = slots, *odd = slots + at_slot((count + 1) / 2);
+  int i = 0;
+  for (; i + 2 < count; i += 2, even += kC, odd += kC, line += 2 * kC) {
+    store_over(line, factor * load(even));
+    store_over(line + kC, factor * load(odd));
+  }
+  if (i < count) store(line, factor * load(even));
+  if (i + 1 < count) store(line + kC, factor * load(odd));
 }
 
 } // namespace
@@ -28,6 +64,15 @@ std::size_t GridRows::longest_cells(const GridLevel& level) {
   for (std::size_t run = 0; run + 1 < level.runs.size(); ++run)
     longest = std::max(longest, level.runs[run + 1].first - level.runs[run].first);
   return at_slot((longest + 1) / 2);
+}
+
+void GridRows::fetch(int row) const {
+  constexpr std::size_t kLine = 64 / sizeof(float);
+  const std::size_t end = at_slot(level_.last_in(row));
+  for (std::size_t at = at_slot(level_.first_in(row)); at < end; at += kLine) {
+    __builtin_prefetch(values_.b + at, 0, 2);
+    __builtin_prefetch(values_.u + at, 1, 2);
+  }
 }
 
 const std::vector<GridPiece>& GridRows::pieces(int row) {
@@ -108,10 +153,7 @@ void GridRows::inject(int row, const GridLevel& coarse, const float* coarse_u, f
       ++fine;
     float* const to = values_.u + at_slot(level_.slot(fine, x));
     const float* const from = coarse_u + at_slot(coarse.first_of(run));
-    for_slots(coarse.x1_of(run) - coarse.x0_of(run), [&](std::size_t slot, std::size_t i) {
-      for (std::size_t k = 0; k < kC; ++k)
-        to[i + k] = factor * from[slot + k];
-    });
+    join(from, coarse.x1_of(run) - coarse.x0_of(run), factor, to);
   }
 }
 
@@ -192,13 +234,11 @@ void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coars
     for (const int side : {-1, 1})
       if (const int near = row + side; near >= 0 && near < level_.rows() && level_.y_of(near) == y + side)
         add_corners(near, x - 1, x + 2 * length - 1, corners_);
-    if (line_.size() < at_slot(length)) line_.resize(at_slot(length));
+    if (line_.size() < at_slot(length + 1)) line_.resize(at_slot(length + 1));
     const float* const at = centre + at_slot(level_.slot(fine, x) - level_.first_in(row));
     for (std::size_t i = 0; i < at_slot(length); ++i)
       line_[i] = at[i] + 0.25f * (corners_[i] + corners_[i + kC]);
-    float* const to = coarse_b + at_slot(coarse.first_of(run));
-    for_slots(length,
-              [&](std::size_t slot, std::size_t i) { std::memcpy(to + slot, line_.data() + i, kC * sizeof(float)); });
+    split(line_.data(), length, coarse_b + at_slot(coarse.first_of(run)));
   }
 }
 

@@ -29,6 +29,9 @@ public:
 
   static std::size_t longest_cells(const GridLevel& level);
 
+  /// Asks for the values of a row that is needed soon: halves of rows are too short for the processor to foresee them.
+  void fetch(int row) const;
+
   /// Gauss-Seidel: u of one colour from the other.
   void relax(int row, int colour);
   /// The same where all of u is taken for 0.

@@ -1,5 +1,6 @@
 #include "core/clone/live_read.h"
 
+#include "core/clone/pixel_planes.h"
 #include "core/clone/placed_pair.h"
 
 #include <algorithm>
@@ -24,8 +25,6 @@ std::vector<Data::RingPlace> list_places(const PixelGraph& graph) {
   return places;
 }
 
-constexpr float kOne = 255;
-
 Rgba unpack(const LivePixel& p) {
   const auto value = [](std::int16_t v) { return static_cast<float>(v - 32) / LivePixel::kOpaque; };
   return {value(p.r), value(p.g), value(p.b), value(p.a)};
@@ -47,7 +46,10 @@ public:
     const int y = clamp_to(stretch.y, dy_, below_.height());
     if (region_.is_opaque && domain_ == Domain::kEncoded && read_target(stretch, y, out + 3 * stride, stride))
       return for_source(
-          stretch, [&](const LivePixel* from, int x, int count) { copy(from, out + (x - stretch.x0), stride, count); },
+          stretch,
+          [&](const LivePixel* from, int x, int count) {
+            to_planes(from, static_cast<std::size_t>(count), out + (x - stretch.x0), stride);
+          },
           [&](const Rgba& p, int x) {
             write({{p.r, p.g, p.b, 0}}, out + (x - stretch.x0), stride);
           });
@@ -76,40 +78,18 @@ private:
       out[k * stride] = static_cast<float>(c.v[k]);
   }
 
-  static void copy(const LivePixel* from, float* out, std::size_t stride, int count) {
-    float* __restrict const red = out, * __restrict const green = out + stride, * __restrict const blue = out + 2 * stride;
-    for (int i = 0; i < count; ++i) {
-      red[i] = static_cast<float>(from[i].r - 32) / LivePixel::kOpaque;
-      green[i] = static_cast<float>(from[i].g - 32) / LivePixel::kOpaque;
-      blue[i] = static_cast<float>(from[i].b - 32) / LivePixel::kOpaque;
-    }
-  }
-
-  /// @returns how many are not opaque.
-  static int copy(const Rgba8* from, float* out, std::size_t stride, int count) {
-    float* __restrict const red = out, * __restrict const green = out + stride, * __restrict const blue = out + 2 * stride;
-    int translucent = 0;
-    for (int i = 0; i < count; ++i) {
-      red[i] = static_cast<float>(from[i].r) / kOne;
-      green[i] = static_cast<float>(from[i].g) / kOne;
-      blue[i] = static_cast<float>(from[i].b) / kOne;
-      translucent += from[i].a != 255;
-    }
-    return translucent;
-  }
-
   /// @returns whether all are opaque; else what was written is not meant.
   bool read_target(const Mask::Run& stretch, int y, float* out, std::size_t stride) const {
-    int translucent = 0;
+    bool is_opaque = true;
     // Pixels follow each other but where the picture ends.
     for (int x = stretch.x0; x < stretch.x1;) {
       const int from = clamp_to(x, dx_, below_.width()), last = clamp_to(stretch.x1 - 1, dx_, below_.width());
       const bool moves = x + 1 < stretch.x1 && clamp_to(x + 1, dx_, below_.width()) == from + 1;
       const int count = moves ? last - from + 1 : 1;
-      translucent += copy(&below_.at(from, y), out + (x - stretch.x0), stride, count);
+      is_opaque &= to_planes(&below_.at(from, y), static_cast<std::size_t>(count), out + (x - stretch.x0), stride);
       x += count;
     }
-    return translucent == 0;
+    return is_opaque;
   }
 
   /// Calls `inside(pixels, x, count)` for the mask's pixels of a stretch and `ring(pixel, x)` for those of its ring.

@@ -1,6 +1,7 @@
 #include "core/clone/mixed_rows.h"
 
 #include "core/clone/grid_kernels.h"
+#include "core/clone/pixel_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -151,25 +152,16 @@ private:
     along_.make_room(count + 1);
     kernels_.surplus(along_.plane(0), along_.stride, moved(row, -1), row, count + 1);
     kernels_.surplus(down_.plane(0) + offset, down_.stride, row, below, count);
-    for (std::size_t k = 0; k < 3; ++k) {
-      float* const sum = sums_.plane(k);
-      const float *const along = along_.plane(k), *const down = down_.plane(k) + offset;
-      for (std::size_t i = 0; i < count; ++i)
-        sum[i] = (along[i + 1] - along[i]) + down[i];
-    }
+    kernels_.add_pairs(sums_.plane(0), sums_.stride, along_.plane(0), along_.stride, down_.plane(0) + offset,
+                       down_.stride, count);
     add_ring(row, -1, 0);
     add_ring(row, static_cast<std::ptrdiff_t>(count), count - 1);
     add_above(here, row, above, upper);
     lower.walk(
         here, [](int, int, std::size_t) {}, [&](int x0, int x1) { add_ring_row(here, below, x0, x1); });
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float* const sum = sums_.plane(k);
-      int bad = 0;
-      // 0 · x is not 0 for infinite x and for not-a-number, of which differences keep something.
-      for (std::size_t i = 0; i < count; ++i)
-        bad += 0.0f * sum[i] != 0;
-      is_finite_ &= bad == 0;
-    }
+    // Of infinite values and not-a-numbers differences keep something.
+    for (std::size_t k = 0; k < 3; ++k)
+      is_finite_ = kernels_.are_finite(sums_.plane(k), count) && is_finite_;
     solve_.set_side(index, sums_.plane(0), sums_.stride);
   }
 
@@ -226,32 +218,19 @@ public:
 private:
   /// @returns whether all are opaque; else what was written is not meant.
   bool read_opaque(const Mask::Run& run, float* out, std::size_t stride) const {
-    int translucent = copy(&pair_.source_pixel(run.x0, run.y), run.x1 - run.x0, out, stride);
+    bool is_opaque =
+        to_planes(&pair_.source_pixel(run.x0, run.y), static_cast<std::size_t>(run.x1 - run.x0), out, stride);
     float* const target = out + 3 * stride;
     // The target's pixels follow each other but where it ends.
     for (int x = run.x0; x < run.x1;) {
       const int from = pair_.target_x(x), last = pair_.target_x(run.x1 - 1);
       const bool moves = x + 1 < run.x1 && pair_.target_x(x + 1) == from + 1;
       const int count = moves ? last - from + 1 : 1;
-      translucent += copy(&pair_.target_pixel(x, run.y), count, target + (x - run.x0), stride);
+      is_opaque &=
+          to_planes(&pair_.target_pixel(x, run.y), static_cast<std::size_t>(count), target + (x - run.x0), stride);
       x += count;
     }
-    return translucent == 0;
-  }
-
-  /// @returns how many are not opaque.
-  static int copy(const Rgba* from, int count, float* out, std::size_t stride) {
-    float* __restrict const red = out;
-    float* __restrict const green = out + stride;
-    float* __restrict const blue = out + 2 * stride;
-    int translucent = 0;
-    for (int i = 0; i < count; ++i) {
-      red[i] = from[i].r;
-      green[i] = from[i].g;
-      blue[i] = from[i].b;
-      translucent += from[i].a != 1.0f;
-    }
-    return translucent;
+    return is_opaque;
   }
 
   void read_any(const Mask::Run& run, float* out, std::size_t stride) const {

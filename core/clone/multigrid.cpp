@@ -1,9 +1,11 @@
 #include "core/clone/multigrid.h"
 
+#include "core/base/bulk_allocator.h"
 #include "core/base/check.h"
 #include "core/clone/coarsest_grid.h"
 #include "core/clone/grid_level.h"
 #include "core/clone/grid_pass.h"
+#include "core/clone/pixel_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +37,8 @@ struct MaskMultigrid::Data {
   std::vector<GridLevel> levels;
   std::optional<CoarsestGrid> coarsest;
   double screening = 0;
-  bool is_tricky = false;
+  /// Of each level: see GridMaking.
+  std::vector<char> is_tricky;
   std::vector<float> zeros;
 };
 
@@ -57,10 +60,10 @@ Result<MaskMultigrid> MaskMultigrid::make(const Mask& mask, double screening, co
     GridMaking coarser;
     if (!is_small) coarser = coarsen(made, screening);
     data->levels.push_back(std::move(made.level));
+    data->is_tricky.push_back(made.is_tricky);
     if (is_small || coarser.level.count() == 0) break;
     made = std::move(coarser);
   }
-  data->is_tricky = made.is_tricky;
   data->zeros.assign(GridRows::longest_cells(data->levels.front()), 0.0f);
   if (data->levels.back().count() <= kMostFactored) data->coarsest.emplace(data->levels.back());
   return MaskMultigrid(data);
@@ -84,13 +87,13 @@ std::int64_t MaskMultigrid::bytes() const {
 }
 
 struct MultigridSolve::State {
-  explicit State(const MaskMultigrid& grids) : data(grids.data_), is_tricky(data->is_tricky) {
+  explicit State(const MaskMultigrid& grids) : data(grids.data_) {
     std::size_t total = 0;
     for (const GridLevel& level : data->levels)
       total += 2 * kC * static_cast<std::size_t>(level.count());
-    floats = total;
-    memory = std::make_unique_for_overwrite<float[]>(total);
-    float* at = memory.get();
+    // One more than the slots: see from_slots.
+    memory.resize(total + 1);
+    float* at = memory.data();
     for (const GridLevel& level : data->levels) {
       const std::size_t size = kC * static_cast<std::size_t>(level.count());
       values.push_back({at, at + size});
@@ -158,10 +161,13 @@ struct MultigridSolve::State {
     run(l, up);
   }
 
+  /// Twice where the coarse grids below would leave too much of the error.
   void visit(std::size_t l) {
     cycle(l, true);
-    if (is_tricky && l != last()) cycle(l, false);
+    if (l != last() && (is_slow || data->is_tricky[l + 1] != 0)) cycle(l, false);
   }
+
+  bool is_tricky() const { return is_slow || (last() > 0 && data->is_tricky[1] != 0); }
 
   double largest_correction() const {
     constexpr std::size_t kLanes = 8;
@@ -186,7 +192,7 @@ struct MultigridSolve::State {
 
   /// See Outcome::error.  Measured contractions: 0.1–0.19 on whole regions, to 0.6 on tricky ones.
   double what_is_left(const Outcome& out, double correction) const {
-    const double least = std::max(is_tricky ? 0.5 : 0.2, slowness);
+    const double least = std::max(is_tricky() ? 0.5 : 0.2, slowness);
     const double rho = std::clamp(1.25 * out.contraction, least, 0.9);
     return correction * rho / (1 - rho);
   }
@@ -198,8 +204,8 @@ struct MultigridSolve::State {
 
   void learn(double contraction, double correction) {
     if (correction < kFloor) return;
-    if (is_tricky && slowness == 0 && contraction > 0.4) slowness = std::min(contraction, 0.7);
-    if (contraction > 0.3) is_tricky = true;
+    if (is_tricky() && slowness == 0 && contraction > 0.4) slowness = std::min(contraction, 0.7);
+    if (contraction > 0.3) is_slow = true;
   }
 
   /// What the coarse correction is multiplied by.  Where W cycles are slow it is because the coarse grids are too
@@ -218,12 +224,11 @@ struct MultigridSolve::State {
   std::shared_ptr<const MaskMultigrid::Data> data;
   int threads = 1;
   GridKernels kernels = GridKernels::choose();
-  std::unique_ptr<float[]> memory;
-  std::size_t floats = 0;
+  std::vector<float, BulkAllocator<float>> memory;
   std::vector<GridValues> values;
   bool is_zero = true;
-  /// Whether coarse grids are visited twice.
-  bool is_tricky = false;
+  /// Whether all coarse grids are visited twice.
+  bool is_slow = false;
   /// The contraction of W cycles, where that is poor; else 0.
   double slowness = 0;
 };
@@ -232,20 +237,6 @@ MultigridSolve::MultigridSolve(const MaskMultigrid& grids) : state_(std::make_un
 MultigridSolve::~MultigridSolve() = default;
 MultigridSolve::MultigridSolve(MultigridSolve&&) noexcept = default;
 MultigridSolve& MultigridSolve::operator=(MultigridSolve&&) noexcept = default;
-
-namespace {
-
-void into_slots(std::span<const Float4> values, float* slots) {
-  float *even = slots, *odd = slots + kC * ((values.size() + 1) / 2);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    float*& to = (i & 1) == 0 ? even : odd;
-    for (std::size_t k = 0; k < kC; ++k)
-      to[k] = values[i][k];
-    to += kC;
-  }
-}
-
-} // namespace
 
 void MultigridSolve::use_threads(int threads) {
   state_->threads = std::max(1, threads);
@@ -259,24 +250,17 @@ float* MultigridSolve::State::in_run(float* slots, std::size_t run, std::size_t 
 }
 
 void MultigridSolve::set_side(std::size_t run, std::span<const Float4> values) {
-  into_slots(values, state_->in_run(state_->values[0].b, run, values.size()));
+  to_slots(values, state_->in_run(state_->values[0].b, run, values.size()));
 }
 
 void MultigridSolve::set_side(std::size_t run, const float* planes, std::size_t stride) {
   const std::vector<GridLevel::Run>& runs = state_->level(0).runs;
   const auto count = static_cast<std::size_t>(runs[run + 1].first - runs[run].first);
-  float* __restrict even = state_->in_run(state_->values[0].b, run, count);
-  float* __restrict odd = even + kC * ((count + 1) / 2);
-  const float *red = planes, *green = planes + stride, *blue = planes + 2 * stride;
-  for (std::size_t i = 0; i + 1 < count; i += 2, even += kC, odd += kC) {
-    even[0] = red[i], even[1] = green[i], even[2] = blue[i];
-    odd[0] = red[i + 1], odd[1] = green[i + 1], odd[2] = blue[i + 1];
-  }
-  if ((count & 1) != 0) even[0] = red[count - 1], even[1] = green[count - 1], even[2] = blue[count - 1];
+  to_slots(planes, stride, count, state_->in_run(state_->values[0].b, run, count));
 }
 
 void MultigridSolve::set_start(std::size_t run, std::span<const Float4> values) {
-  into_slots(values, state_->in_run(state_->values[0].u, run, values.size()));
+  to_slots(values, state_->in_run(state_->values[0].u, run, values.size()));
   state_->is_zero = false;
 }
 
@@ -285,18 +269,12 @@ void MultigridSolve::start_from_zero() {
 }
 
 void MultigridSolve::get(std::size_t run, std::span<Float4> values) const {
-  const float* even = state_->in_run(state_->values[0].u, run, values.size());
-  const float* odd = even + kC * ((values.size() + 1) / 2);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const float*& from = (i & 1) == 0 ? even : odd;
-    values[i] = {Float4::Lanes{from[0], from[1], from[2], 0}};
-    from += kC;
-  }
+  from_slots(state_->in_run(state_->values[0].u, run, values.size()), values);
 }
 
 Result<MultigridSolve::Outcome> MultigridSolve::solve(double tolerance, int least, int most, const Watch& watch) {
   // What was learnt before is forgotten: the same b and start give the same bits, whatever was solved in between.
-  state_->is_tricky = state_->data->is_tricky;
+  state_->is_slow = false;
   state_->slowness = 0;
   return state_->last() == 0 ? state_->sweep(tolerance, least, most, watch)
                              : state_->cycle_until(tolerance, least, most, watch);
@@ -343,7 +321,7 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolera
     if (!is_done) add_down(stages, 0, 4, false);
     if (!is_done) continue;
     run(0, stages);
-    if (!is_tricky) return out;
+    if (!is_tricky()) return out;
     // Where holes are dense, errors hide between the coarse nodes: a pixel's is at most its residual there.
     out.error += largest_residual();
     if (is_last || out.error <= tolerance) return out;
@@ -353,7 +331,7 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolera
 }
 
 std::int64_t MultigridSolve::bytes() const {
-  return static_cast<std::int64_t>(state_->floats * sizeof(float));
+  return static_cast<std::int64_t>(state_->memory.size() * sizeof(float));
 }
 
 } // namespace oversketch
