@@ -100,7 +100,12 @@ OVERSKETCH_INLINED void sample_row(const Texture& texture, int count, const doub
     part_x[i] = across.part, part_y[i] = down.part;
   }
   // No number that was joined is negative.
-  if (outside >= 0 && mix_inside(texture.pixels, width, count, first.data(), part_x.data(), part_y.data(), out)) return;
+  if (outside >= 0) {
+    if (mix_inside(texture.pixels, width, count, first.data(), part_x.data(), part_y.data(), out)) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      out[i] = Taps::mix_inside(texture.pixels + first[i], width, part_x[i], part_y[i]);
+    return;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Located across = locate(x[i], high_x + 1.0), down = locate(y[i], high_y + 1.0);
     out[i] = Taps::mix(texture, across.low, down.low, across.part, down.part);

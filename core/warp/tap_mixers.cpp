@@ -156,62 +156,85 @@ struct WeightedSum {
   float alpha = 0;
 
   void add(const Rgba& tap, float weight) {
-    color += weight * tap.a * load(tap);
-    alpha += weight * tap.a;
+    const float part = weight * tap.a;
+    color += part * load(tap);
+    alpha += part;
   }
   Rgba straight() const {
     if (!(alpha > 0)) return {0, 0, 0, 0};
-    return {color[0] / alpha, color[1] / alpha, color[2] / alpha, alpha};
+    Lanes out = color / alpha;
+    out[3] = alpha;
+    return std::bit_cast<Rgba>(out);
   }
 };
 
 /// Largest overshoot of the kernel, in parts of the taps' range: (Σ|w| − 1) / 2 with Σ|w| ≤ (5/4)².
 constexpr float kOvershoot = 9.0F / 32;
 
-Rgba held_in_range(Rgba color, const std::array<Rgba, 16>& taps) {
-  float most = 0;
-  for (const Rgba& tap : taps)
-    most = std::max(most, tap.a);
-  color.a = std::min(color.a, most);
-  for (float Rgba::*of : {&Rgba::r, &Rgba::g, &Rgba::b}) {
-    float low = HUGE_VALF, high = -HUGE_VALF;
-    for (const Rgba& tap : taps)
-      if (tap.a > 0) low = std::min(low, tap.*of), high = std::max(high, tap.*of);
-    const float more = kOvershoot * (high - low);
-    color.*of = std::min(std::max(color.*of, low - more), high + more);
+/// Of the taps that are visible; of alphas, of all.
+class TapRange {
+public:
+  void add(const Rgba& tap) {
+    const Lanes values = load(tap);
+    const LaneBits seen = LaneBits{} + (tap.a > 0 ? -1 : 0);
+    low_ = (seen & (values < low_)) != 0 ? values : low_;
+    high_ = (seen & (values > high_)) != 0 ? values : high_;
   }
-  return color;
-}
+
+  Rgba held(const Rgba& color) const {
+    const Lanes more = kOvershoot * (high_ - low_), least = low_ - more, most = high_ + more;
+    Lanes out = load(color);
+    out = out < least ? least : out;
+    out = out > most ? most : out;
+    out[3] = color.a < high_[3] ? color.a : high_[3];
+    return std::bit_cast<Rgba>(out);
+  }
+
+private:
+  Lanes low_ = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
+  Lanes high_ = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF, 0};
+};
 
 } // namespace
 
 Rgba BilinearTaps::mix(const Texture& texture, int x, int y, float tx, float ty) {
   const std::array<Rgba, 4> taps = gather<2>(texture, x, y);
-  const int first = 0;
+  return mix_inside(taps.data(), 2, tx, ty);
+}
+
+Rgba BilinearTaps::mix_inside(const Rgba* first, int width, float tx, float ty) {
+  const int at = 0;
   Rgba out;
-  if (mix_bilinear_baseline(taps.data(), 2, 1, &first, &tx, &ty, &out)) return out;
-  if (tx == 0 && ty == 0) return taps[0];
+  if (mix_bilinear_baseline(first, width, 1, &at, &tx, &ty, &out)) return out;
+  if (tx == 0 && ty == 0) return first[0];
   WeightedSum sum;
-  sum.add(taps[0], (1 - tx) * (1 - ty));
-  sum.add(taps[1], tx * (1 - ty));
-  sum.add(taps[2], (1 - tx) * ty);
-  sum.add(taps[3], tx * ty);
+  sum.add(first[0], (1 - tx) * (1 - ty));
+  sum.add(first[1], tx * (1 - ty));
+  sum.add(first[width], (1 - tx) * ty);
+  sum.add(first[width + 1], tx * ty);
   return sum.straight();
 }
 
 Rgba BicubicTaps::mix(const Texture& texture, int x, int y, float tx, float ty) {
   const std::array<Rgba, 16> taps = gather<4>(texture, x - 1, y - 1);
-  const int first = 0;
+  return mix_inside(taps.data(), 4, tx, ty);
+}
+
+Rgba BicubicTaps::mix_inside(const Rgba* first, int width, float tx, float ty) {
+  const int at = 0;
   Rgba out;
-  if (mix_bicubic_baseline(taps.data(), 4, 1, &first, &tx, &ty, &out)) return out;
-  if (tx == 0 && ty == 0) return taps[5];
+  if (mix_bicubic_baseline(first, width, 1, &at, &tx, &ty, &out)) return out;
+  if (tx == 0 && ty == 0) return first[width + 1];
   const Lanes wx = cubic_weights(tx), wy = cubic_weights(ty);
   WeightedSum sum;
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
-      sum.add(taps[static_cast<std::size_t>(4 * j + i)], wx[i] * wy[j]);
+  TapRange range;
+  for (int j = 0; j < 4; ++j, first += width)
+    for (int i = 0; i < 4; ++i) {
+      sum.add(first[i], wx[i] * wy[j]);
+      range.add(first[i]);
+    }
   const Rgba color = sum.straight();
-  return color.a > 0 ? held_in_range(color, taps) : color;
+  return color.a > 0 ? range.held(color) : color;
 }
 
 } // namespace oversketch

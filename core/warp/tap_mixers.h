@@ -24,6 +24,8 @@ struct BilinearTaps {
   static constexpr int kBefore = 0, kAfter = 1;
   /// One point, anywhere; the same bits as MixInside gives.
   static Rgba mix(const Texture& texture, int x, int y, float tx, float ty);
+  /// The same where all taps lie in the picture; `first` is the upper left one.
+  static Rgba mix_inside(const Rgba* first, int width, float tx, float ty);
 };
 
 /// 4 × 4 taps, Catmull–Rom: the cubic through the middle two with slopes (p₂ − p₀) / 2 and (p₃ − p₁) / 2.
@@ -34,6 +36,7 @@ struct BilinearTaps {
 struct BicubicTaps {
   static constexpr int kBefore = 1, kAfter = 2;
   static Rgba mix(const Texture& texture, int x, int y, float tx, float ty);
+  static Rgba mix_inside(const Rgba* first, int width, float tx, float ty);
 };
 
 } // namespace oversketch
