@@ -2,6 +2,7 @@
 
 #include "core/document/field_values.h"
 
+#include <algorithm>
 #include <complex>
 #include <numbers>
 
@@ -34,6 +35,24 @@ Json pins_json(const Layer& layer) {
     pins.push_back(std::move(json));
   }
   return pins;
+}
+
+/// Null where nothing is blended in.
+Json bleed_json(const BleedForecast& forecast) {
+  if (forecast.samples.empty()) return nullptr;
+  double sum = 0;
+  for (const BleedSample& sample : forecast.samples)
+    sum += static_cast<double>(sample.norm);
+  const auto worst = std::ranges::max_element(forecast.samples, {}, &BleedSample::norm);
+  const auto steepest = std::ranges::max_element(forecast.samples, {}, &BleedSample::jump);
+  Json json;
+  json["mean"] = sum / static_cast<double>(forecast.samples.size());
+  json["shift"] = forecast.mean;
+  json["worst"] = worst->norm;
+  json["worst_at"] = write_value(worst->at);
+  json["jump"] = steepest->jump;
+  json["jump_at"] = write_value(steepest->at);
+  return json;
 }
 
 Json counters_json(const Counters& counters) {
@@ -82,10 +101,14 @@ Result<Json> make_report(Session& session, const Watch& watch) {
     json["pins"] = pins_json(layer);
     json["placement"] = placement_json(layer.placement);
     json["metrics"] = nullptr;
+    json["bleed"] = nullptr;
     if (!layer.outline.empty()) {
       const auto metrics = session.metrics(layer.id, watch);
       if (!metrics) return metrics.error();
       json["metrics"] = metrics_json(*metrics);
+      const auto bleed = session.bleed(layer.id, watch);
+      if (!bleed) return bleed.error();
+      json["bleed"] = bleed_json(*bleed);
     }
     report["layers"].push_back(std::move(json));
   }

@@ -62,7 +62,9 @@ struct Spec<ExportLayerStep> {
 template <>
 struct Spec<ReportStep> {
   static constexpr std::string_view name = "report", label = "Report";
-  static constexpr std::string_view help = "Writes layers, metrics, history and counters as JSON.";
+  static constexpr std::string_view help =
+      "Writes layers, metrics, history and counters as JSON, and how well each layer's edge matches what is below it "
+      "(`bleed`).";
   static constexpr auto fields() { return std::make_tuple(Field{"path", &ReportStep::path, kOutHelp}); }
 };
 template <>

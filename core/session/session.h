@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/base/watch.h"
+#include "core/clone/bleed.h"
 #include "core/deform/deformation.h"
 #include "core/document/history.h"
 #include "core/image/pyramid.h"
@@ -116,6 +117,10 @@ public:
   /// The same, of the target's size.
   Result<Image> layer_picture(LayerId id, const Watch& watch = {});
 
+  /// Where colours will bleed into a layer, along its boundary in target pixels; nothing where it is not drawn.
+  /// @errors those of composite().
+  Result<BleedForecast> bleed(LayerId id, const Watch& watch = {});
+
   /// What composite() is painted from, lowest first, for who paints it otherwise; every system is there.
   /// @param otherwise  a layer to be taken with other settings, for comparison; may be null.
   /// @errors those of the solvers and of warp with the layer as the place, cancelled.
@@ -150,7 +155,8 @@ private:
   ImagePyramid source_of(const Layer& layer);
   Result<std::shared_ptr<const LayerShape>> shape_of(const Layer& layer, const Solve& solve, bool needs_system,
                                                      const Watch& watch);
-  Result<Image> blend(const Layer& layer, const Image& below, const Watch& watch);
+  /// Onto the picture below it, in place.  @returns the part that may have changed, as it is after.
+  Result<WarpedRegion> blend(const Layer& layer, Raster<Rgba>& pixels, const Watch& watch);
   /// The picture up to and including the layer of that index.
   Result<Image> composite_until(const Document& document, std::size_t count, const Watch& watch);
 
