@@ -25,8 +25,10 @@ struct FiguresArguments {
 using DrawFigure = Result<Json> (*)(const FigureInput&);
 
 const std::vector<std::pair<std::string, std::vector<DrawFigure>>> figure_table() {
-  return {
-      {"compare", {draw_compare}}, {"paper", {draw_paper, write_paper_table}}, {"alternatives", {draw_alternatives}}};
+  return {{"compare", {draw_compare}},
+          {"paper", {draw_paper, write_paper_table}},
+          {"alternatives", {draw_alternatives}},
+          {"errors", {draw_errors}}};
 }
 
 Result<FigureInput> prepare(const FiguresArguments& options, const Watch& watch) {
@@ -149,7 +151,8 @@ void add_figures(Cli& cli) {
   sub->add_option(
          "figures", options->figures,
          "compare: source, paper and flip-free side by side; paper: meshes, gradients, weights, cell sizes and "
-         "the table of times; alternatives: other ways to match; none: all")
+         "the table of times; alternatives: other ways to match; errors: how far blending is from the exact "
+         "solution; none: all")
       ->check(CLI::IsMember(names))
       ->type_name("NAME");
   sub->add_option("--out", options->out, "folder for the pictures")->required()->type_name("DIR");

@@ -34,6 +34,9 @@ Result<Json> write_paper_table(const FigureInput& input);
 /// alternatives.png: a row for each ambiguous case; source, the best match, the runners-up.
 Result<Json> draw_alternatives(const FigureInput& input);
 
+/// errors.png and errors.json: how far each quality of blending is from the exact solution, on photographs.
+Result<Json> draw_errors(const FigureInput& input);
+
 /// A case, its outline, and its sketch made clean and running like the outline.
 struct FigureCase {
   DeformCase given;

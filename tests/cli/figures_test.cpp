@@ -109,6 +109,21 @@ TEST_F(Figures, SameBytesEachTime) {
   }
 }
 
+TEST_F(Figures, ErrorsAreAsSmallAsTheyAreSaidToBe) {
+  ASSERT_EQ(run("errors --out out --report r.json"), 0) << folder_.read("stderr.txt");
+  EXPECT_EQ(json::parse(folder_.read("r.json"))["files"], json({"errors.png", "errors.json"}));
+  const json rows = json::parse(folder_.read("out/errors.json"))["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  const double most[] = {1, 0.3, 0.03};
+  for (const json& row : rows)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const json& step = row["steps"][i];
+      EXPECT_LE(step["worst_levels"], most[i]) << row["mask"] << step["step"];
+      EXPECT_GT(step["mean_levels"], 0) << row["mask"] << step["step"];
+    }
+  EXPECT_EQ(picture("out/errors.png").width(), 2 * 64 + 4 * 380 + 3 * 36);
+}
+
 TEST_F(Figures, PaperHasItsPicturesAndItsTable) {
   folder_.write("cases/wide.json", R"({"outline": [[0,0],[300,0],[300,120],[0,120]],
                                        "sketch": [[0,0],[150,40],[300,0],[300,120],[150,160],[0,120]]})");
