@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using testing::EditorUnderTest;
 using testing::Json;
 
-constexpr int kEvents = 1200;
+constexpr int kEvents = 600;
 
 int wanted_events() {
   const char* wanted = std::getenv("OVERSKETCH_MONKEY_EVENTS");
