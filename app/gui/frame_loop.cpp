@@ -89,7 +89,7 @@ bool FrameLoop::gather() {
   const bool line_shown = editor_.state().said_until > Window::now_s();
   const double before = Window::now_s();
   window_.wait(wait_time());
-  batch_ = window_.input().take_batch();
+  batch_ = reply_.field_awaits_keys ? std::vector<RawEvent>() : window_.input().take_batch();
   events_ += batch_.size();
   if (!batch_.empty()) pointer_ = batch_.back().event.position;
   const bool line_ended = line_shown && editor_.state().said_until <= Window::now_s();
@@ -97,7 +97,7 @@ bool FrameLoop::gather() {
   const bool asked = window_.take_redraw_request();
   if (changed_.exchange(false) || asked || !batch_.empty() || line_ended || time_came)
     frames_due_ = std::max(frames_due_, kFramesAfterChange);
-  if (busy) frames_due_ = std::max(frames_due_, 1);
+  if (busy || reply_.field_awaits_keys) frames_due_ = std::max(frames_due_, 1);
   return frames_due_ > 0;
 }
 

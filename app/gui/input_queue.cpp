@@ -16,6 +16,7 @@ struct Contents {
   bool button = false;
   bool wheel = false;
   bool text_or_letter = false;
+  bool text = false;
   std::vector<int> keys;
 
   bool hides(const RawEvent& next) const {
@@ -31,6 +32,8 @@ struct Contents {
       return button || !keys.empty();
     case Kind::kKey:
       if (button || wheel) return true;
+      // Dear ImGui drops the text of a frame in which Ctrl is down, whichever came first.
+      if (text && (next.event.key == Key::kCtrl || next.event.modifiers.ctrl)) return true;
       return writes(next) ? !keys.empty() : std::ranges::find(keys, next.code) != keys.end();
     case Kind::kEnter:
       return button;
@@ -44,7 +47,7 @@ struct Contents {
     using Kind = RawEvent::Kind;
     if (event.kind == Kind::kButton || event.kind == Kind::kFocus) button = true;
     if (event.kind == Kind::kWheel) wheel = true;
-    if (event.kind == Kind::kText) text_or_letter = true;
+    if (event.kind == Kind::kText) text = text_or_letter = true;
     if (event.kind != Kind::kKey) return;
     if (writes(event))
       text_or_letter = true;

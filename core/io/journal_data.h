@@ -16,7 +16,8 @@ struct Journal::Data {
   /// A step, or a comment.
   using Line = std::variant<Step, std::string>;
 
-  explicit Data(std::filesystem::path in) : folder(std::move(in)), pictures(folder, kJournalImages) {}
+  explicit Data(std::filesystem::path in)
+      : folder(std::move(in)), pictures(folder, kJournalImages, PictureFolder::Ending::kOfOriginal) {}
 
   /// @param bytes  of whole lines that stand there.
   Result<void> open_for_appending(std::size_t bytes);

@@ -36,14 +36,17 @@ Result<std::string> PictureFolder::store(const ImageRef& ref) {
     return Error{"file.write", "a link leads out of the session's folder", (root_ / inside).string()};
   fs::create_directories(root_ / inside, failure);
   if (failure) return Error{"file.write", "the folder cannot be made: " + failure.message(), (root_ / inside).string()};
-  const std::string stem = fs::path(portable_name(ref.name)).stem().string();
+  const fs::path original = portable_name(ref.name);
+  const bool keeps_ending = ending_ == Ending::kOfOriginal && original.has_extension();
+  const auto named = [&](std::string_view extension) {
+    return inside / (keeps_ending ? original.filename().string() : original.stem().string() + std::string(extension));
+  };
   // A name is its content: what is there is the same picture.
   for (const char* extension : {".png", ".osf"})
-    if (fs::exists(root_ / inside / (stem + extension), failure))
-      return stored_[hash] = (inside / (stem + extension)).generic_string();
+    if (fs::exists(root_ / named(extension), failure)) return stored_[hash] = named(extension).generic_string();
   const auto picture = encode_exact(*ref.image);
   if (!picture) return at(ref.name, picture.error());
-  const fs::path relative = inside / (stem + std::string(picture->extension));
+  const fs::path relative = named(picture->extension);
   if (!lies_below(root_, root_ / relative))
     return Error{"file.write", "a link leads out of the session's folder", (root_ / relative).string()};
   if (auto saved = write_file(root_ / relative, std::span<const std::byte>(picture->bytes)); !saved)

@@ -14,8 +14,12 @@ namespace oversketch {
 /// @threads one at a time.
 class PictureFolder {
 public:
-  PictureFolder(std::filesystem::path root, std::filesystem::path folder)
-      : root_(std::move(root)), folder_(std::move(folder)) {}
+  /// How a file is called: by what it holds now, for other programs; or as the person knows it, "sea.jpg", whatever it
+  /// holds, so that a history names what was opened.
+  enum class Ending { kOfContent, kOfOriginal };
+
+  PictureFolder(std::filesystem::path root, std::filesystem::path folder, Ending ending = Ending::kOfContent)
+      : root_(std::move(root)), folder_(std::move(folder)), ending_(ending) {}
 
   /// The command with its loaded pictures in the folder, named relative to ROOT; written where they are not there yet.
   /// @errors file.write (a link that leads out of ROOT too), those of encode_exact.
@@ -26,6 +30,7 @@ private:
 
   std::filesystem::path root_;
   std::filesystem::path folder_;
+  Ending ending_;
   std::map<Hash, std::string> stored_;
 };
 

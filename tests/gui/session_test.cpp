@@ -191,5 +191,18 @@ TEST_F(GuiSession, a_fish_gets_into_the_sea_and_everything_is_kept) {
   }
 }
 
+TEST_F(GuiSession, a_name_can_be_typed_before_the_dialog_is_there) {
+  const testing::TempFolder folder;
+  EditorUnderTest editor({.arguments = {"--sample"}, .width = 1000, .height = 700});
+  ASSERT_TRUE(editor.start());
+  for (const char* name : {"ab.ora", "ba.ora", "aabb_c.ora"}) {
+    editor.hand().key("ctrl+shift+s");
+    editor.hand().type((folder / name).string());
+    editor.hand().key("Return");
+    ASSERT_TRUE(editor.wait_for(name, [&](const Json& map) { return fs::exists(folder / name) && !map.at("busy"); }));
+  }
+  EXPECT_EQ(editor.close(), 0);
+}
+
 } // namespace
 } // namespace oversketch

@@ -2,13 +2,15 @@
 
 #include "ui/canvas/canvas_input.h"
 
+#include "ui/state/settings.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace oversketch {
 namespace {
 
-constexpr double kKeyZoom = 1.25, kToleranceStep = 2;
+constexpr double kKeyZoom = 1.25;
 
 std::optional<Tool> tool_of(Key key) {
   if (key == key_of('L')) return Tool::kOutline;
@@ -78,7 +80,7 @@ bool CanvasInput::set_by_key(const InputEvent& event, const CanvasFrame& frame, 
   const bool more = event.key == key_of(']');
   if (more || event.key == key_of('[')) {
     Preferences preferences = frame.state.preferences;
-    tolerance_px_ = std::clamp(tolerance_px_ + (more ? kToleranceStep : -kToleranceStep), 2.0, 100.0);
+    tolerance_px_ = stepped_tolerance(tolerance_px_, more);
     preferences.tolerance_px = tolerance_px_;
     sink.emit(action::SetPreferences{preferences});
     sink.emit(action::Say{"Strokes take hold within " + std::to_string(std::lround(tolerance_px_)) + " px of a curve"});

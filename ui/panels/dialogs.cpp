@@ -118,19 +118,24 @@ void draw_preferences_dialog(const Preferences& preferences, bool has_system_dia
   bool any = draw_theme(changed, context);
   any |= draw_scale(changed, context);
   any |= draw_stroke_options(context, "preferences", changed);
-  const SliderSpec memory{.low = 64,
-                          .high = 16384,
+  const auto draw_memory = [&](const char* id, const char* label, const char* tip, double initial, double& mib) {
+    const SliderSpec spec{.low = 64,
+                          .high = 65536,
                           .least = 16,
                           .most = 1048576,
-                          .initial = Preferences().history_mib,
+                          .initial = initial,
                           .logarithmic = true,
                           .whole = true,
                           .unit = "MB"};
-  any |=
-      take(draw_slider(context, "preferences.history", "History memory",
-                       {"How much memory pictures may take that only undo needs, MB. Fifty steps are always kept.", {}},
-                       changed.history_mib, memory),
-           changed.history_mib, context);
+    any |= take(draw_slider(context, id, label, {tip, {}}, mib, spec), mib, context);
+  };
+  draw_memory("preferences.pictures", "Picture memory",
+              "How much memory a document's pictures may take, MB; a million pixels take 15 MB. What asks for more is "
+              "not opened.",
+              Preferences().pictures_mib, changed.pictures_mib);
+  draw_memory("preferences.history", "History memory",
+              "How much memory pictures may take that only undo needs, MB. Fifty steps are always kept.",
+              Preferences().history_mib, changed.history_mib);
   const auto toggle = [&](const char* id, const char* label, const char* tip, bool& on) {
     if (!draw_toggle(context, id, label, {tip, {}}, on)) return;
     on = !on;

@@ -24,8 +24,8 @@ struct NewDocumentState {
 void draw_new_document_dialog(NewDocumentState& state, const InputEvents& events, const DrawContext& context);
 
 /// Takes effect at once.  "preferences.theme.dark" …, "preferences.scale", "preferences.wheel",
-/// "preferences.smoothing.*", "preferences.tolerance", "preferences.history", "preferences.system_dialog",
-/// "preferences.close".
+/// "preferences.smoothing.*", "preferences.tolerance", "preferences.pictures", "preferences.history",
+/// "preferences.system_dialog", "preferences.close".
 /// @param has_system_dialog  there is one to be preferred.
 void draw_preferences_dialog(const Preferences& preferences, bool has_system_dialog, const InputEvents& events,
                              const DrawContext& context);

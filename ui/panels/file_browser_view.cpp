@@ -262,7 +262,7 @@ void draw_preview(FileBrowser& browser, Pictures& pictures, ImVec2 size, const D
 void draw_name_row(FileBrowser& browser, bool appears, const DrawContext& context) {
   const RowBox row = begin_row(context, "Name");
   ImGui::SetNextItemWidth(row.width());
-  if (appears) ImGui::SetKeyboardFocusHere();
+  if (appears) give_keys_to_next_field(context);
   const bool entered = ImGui::InputText("##name", &browser.name,
                                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   finish_item(context, "browser.name", {"The file's name; its ending is added when there is none.", {}});

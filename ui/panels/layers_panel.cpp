@@ -51,7 +51,7 @@ void draw_name_field(const LayerRow& row, LayersPanelState& state, WindowFlags& 
   ImGui::SetNextItemWidth(width);
   if (flags.rename_starts) {
     state.name = row.name;
-    ImGui::SetKeyboardFocusHere();
+    give_keys_to_next_field(context);
   }
   const bool entered =
       ImGui::InputText("##name", &state.name, ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);

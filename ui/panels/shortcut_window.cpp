@@ -60,7 +60,7 @@ void draw_shortcut_window(std::string& search, const InputEvents& events, const 
   const Dialog dialog(context, "dialog.shortcuts", "Shortcuts", ImVec2(680, 620));
   if (dialog.appears()) {
     search.clear();
-    ImGui::SetKeyboardFocusHere();
+    give_keys_to_next_field(context);
   }
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::InputTextWithHint("##search", "Search: a key or what it does", &search);

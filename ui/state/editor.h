@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/io/file_claim.h"
+#include "core/io/limits.h"
 #include "core/io/session_journal.h"
 #include "ui/state/editor_state.h"
 #include "ui/state/file_jobs.h"
@@ -106,6 +107,7 @@ private:
   void remove_tab(std::size_t index);
   /// Runs work on the tab's session; `then` is called here, by update(), unless the tab is gone by then.
   void run(Tab& tab, std::string label, LiveSession::Job job, Then then);
+  IoLimits io_limits() const;
   void request_file(FileRequest::For purpose, std::filesystem::path proposal);
   void remember_file(const std::filesystem::path& path);
 

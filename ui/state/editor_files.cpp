@@ -57,13 +57,28 @@ void Editor::remember_file(const fs::path& path) {
   perform(action::SetPreferences{state_.preferences});
 }
 
+IoLimits Editor::io_limits() const {
+  IoLimits limits;
+  limits.memory_bytes = static_cast<std::size_t>(state_.preferences.pictures_mib) << 20;
+  return limits;
+}
+
 void Editor::new_document(const action::NewDocument& asked) {
   if (!asked.what) {
     state_.asks_new_document = true;
     return;
   }
   state_.asks_new_document = false;
-  add_tab("Untitled").session->execute(*asked.what);
+  Tab& tab = add_tab("Untitled");
+  const auto job = [what = *asked.what, limits = io_limits()](Session& session, const Watch& watch) {
+    return make_document(session, what, limits, watch);
+  };
+  const auto then = [id = tab.id](Editor& editor, const Result<void>& result) {
+    if (result) return;
+    editor.say(result.error());
+    editor.remove_tab(*editor.index_of(id));
+  };
+  run(tab, "Making a picture", job, then);
   state_.tool = Tool::kOutline;
 }
 
@@ -86,9 +101,9 @@ void Editor::open(const fs::path& path, bool remember) {
   const auto opened = std::make_shared<OpenedFile>();
   const bool project = kind_of_file(file) == FileKind::kProject;
   const auto claim = std::make_shared<std::optional<FileClaim>>();
-  const auto job = [=, journal = memories_[tab.id].journal,
-                    folder = setup_.state_folder](Session& session, const Watch& watch) -> Result<void> {
-    auto result = open_file(session, file, watch);
+  const auto job = [=, journal = memories_[tab.id].journal, folder = setup_.state_folder,
+                    limits = io_limits()](Session& session, const Watch& watch) -> Result<void> {
+    auto result = open_file(session, file, limits, watch);
     if (!result) return result.error();
     *opened = std::move(*result);
     journal->begin(session, project ? file.string() : file.stem().string(), project ? file : fs::path());
@@ -120,7 +135,9 @@ void Editor::run_script_in_tab(const fs::path& script, const fs::path& out) {
   Tab& tab = add_tab(file.stem().string());
   tab.folder = file.parent_path();
   run(tab, "Running " + file.filename().string(),
-      [file, folder](Session& session, const Watch& watch) { return run_whole_script(session, file, folder, watch); },
+      [file, folder, limits = io_limits()](Session& session, const Watch& watch) {
+        return run_whole_script(session, file, folder, limits, watch);
+      },
       {});
 }
 
@@ -142,8 +159,8 @@ void Editor::add_source(const fs::path& path) {
   const bool own_target = path == kTargetName;
   if (tab == nullptr || (is_untouched(*tab) && !own_target)) return open(path);
   const fs::path file = own_target ? path : made_absolute(path);
-  const auto job = [file](Session& session, const Watch& watch) {
-    return oversketch::add_source(session, file, watch);
+  const auto job = [file, limits = io_limits()](Session& session, const Watch& watch) {
+    return oversketch::add_source(session, file, limits, watch);
   };
   const auto then = [](Editor& editor, const Result<void>& result) {
     if (result) editor.state_.tool = Tool::kOutline;
@@ -157,8 +174,8 @@ void Editor::set_target(const fs::path& path) {
   state_.file_request.reset();
   if (tab == nullptr || is_untouched(*tab)) return open(path);
   const fs::path file = made_absolute(path);
-  const auto job = [file](Session& session, const Watch& watch) {
-    return oversketch::set_target(session, file, watch);
+  const auto job = [file, limits = io_limits()](Session& session, const Watch& watch) {
+    return oversketch::set_target(session, file, limits, watch);
   };
   run(*tab, "Opening " + file.filename().string(), job, {});
 }

@@ -38,9 +38,9 @@ void Editor::recover(std::size_t index) {
   tab.folder = work.project.parent_path();
   const auto said = std::make_shared<std::string>();
   const auto claim = std::make_shared<std::optional<FileClaim>>();
-  const auto job = [=, journal = memories_[tab.id].journal,
-                    folder = setup_.state_folder](Session& session, const Watch& watch) -> Result<void> {
-    auto recovered = recover_journal(work.journal, {}, watch);
+  const auto job = [=, journal = memories_[tab.id].journal, folder = setup_.state_folder,
+                    limits = io_limits()](Session& session, const Watch& watch) -> Result<void> {
+    auto recovered = recover_journal(work.journal, limits, watch);
     if (!recovered) return recovered.error();
     session.adopt(std::move(recovered->session));
     journal->resume(session, std::move(recovered->journal));

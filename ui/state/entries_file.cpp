@@ -1,4 +1,5 @@
 #include "ui/state/entry_row.h"
+#include "ui/state/settings.h"
 
 #include <algorithm>
 #include <array>
@@ -36,19 +37,16 @@ std::string redo_label(C c) {
   return can_redo(c) ? "Redo " + c.snapshot->history[c.snapshot->cursor + 1] : "Redo";
 }
 
-/// Steps that a hand can feel, whatever the tolerance is now.
-void scale_tolerance(C c, double factor) {
+void step_tolerance(C c, bool greater) {
   Preferences preferences = c.state.preferences;
-  double& tolerance = preferences.tolerance_px;
-  const double step = std::max(1.0, std::round(std::abs(factor - 1) * tolerance));
-  tolerance = std::clamp(tolerance + (factor > 1 ? step : -step), 1.0, 100.0);
+  preferences.tolerance_px = stepped_tolerance(preferences.tolerance_px, greater);
   c.sink.emit(action::SetPreferences{preferences});
 }
 void shrink_tolerance(C c) {
-  scale_tolerance(c, 0.8);
+  step_tolerance(c, false);
 }
 void grow_tolerance(C c) {
-  scale_tolerance(c, 1.25);
+  step_tolerance(c, true);
 }
 
 bool is_busy(C c) {

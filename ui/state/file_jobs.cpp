@@ -5,9 +5,11 @@
 #include "core/io/project.h"
 #include "core/io/recorder.h"
 #include "core/io/runner.h"
+#include "core/session/picture_loader.h"
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace oversketch {
 namespace {
@@ -20,11 +22,25 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-Result<ImageRef> load_ref(const fs::path& path) {
-  if (path == kTargetName) return ImageRef{std::string(kTargetName), std::nullopt};
-  auto image = load_image(path);
-  if (!image) return image.error();
-  return ImageRef{path.string(), std::move(*image)};
+/// What the document's pictures take, each content once.
+std::size_t picture_bytes(const Document& document) {
+  std::map<Hash, std::size_t> bytes;
+  const auto count = [&](const Image& image) { bytes[image.content_hash()] = image.pixels().values().size_bytes(); };
+  if (!document.empty()) count(document.target.image);
+  for (const Layer& layer : document.layers)
+    count(layer.source.image);
+  std::size_t sum = 0;
+  for (const auto& [hash, size] : bytes)
+    sum += size;
+  return sum;
+}
+
+/// @param taken  of the memory, by pictures that stay.
+Result<void> load_and_execute(Session& session, Command command, std::size_t taken, const IoLimits& limits,
+                              const Watch& watch) {
+  PictureLoader pictures({}, limits.memory_bytes - std::min(taken, limits.memory_bytes));
+  if (auto loaded = pictures.load_into(command); !loaded) return loaded;
+  return session.execute(command, watch);
 }
 
 bool changes_document(const ScriptLine& line) {
@@ -32,7 +48,7 @@ bool changes_document(const ScriptLine& line) {
          std::holds_alternative<RedoStep>(line.step);
 }
 
-Result<OpenedFile> open_script(Session& session, const fs::path& path, const Watch& watch) {
+Result<OpenedFile> open_script(Session& session, const fs::path& path, const IoLimits& limits, const Watch& watch) {
   const auto text = read_text_file(path);
   if (!text) return text.error();
   const std::string name = path.filename().string();
@@ -41,7 +57,7 @@ Result<OpenedFile> open_script(Session& session, const fs::path& path, const Wat
   const auto left_out = std::erase_if(*lines, [](const ScriptLine& line) { return !changes_document(line); });
   Session opened;
   const fs::path folder = path.parent_path();
-  if (const auto run = run_script(opened, *lines, name, {folder, folder}, watch); !run) return run.error();
+  if (const auto run = run_script(opened, *lines, name, {folder, folder, limits}, watch); !run) return run.error();
   if (opened.document().empty()) return Error{"script.no-document", "the script makes no document", path.string()};
   opened.mark_saved();
   session.adopt(std::move(opened));
@@ -50,8 +66,8 @@ Result<OpenedFile> open_script(Session& session, const fs::path& path, const Wat
   return file;
 }
 
-Result<OpenedFile> open_project(Session& session, const fs::path& path, const Watch& watch) {
-  auto loaded = load_project(path, {}, watch);
+Result<OpenedFile> open_project(Session& session, const fs::path& path, const IoLimits& limits, const Watch& watch) {
+  auto loaded = load_project(path, {.limits = limits}, watch);
   if (!loaded) return loaded.error();
   session.adopt(std::move(loaded->session));
   return OpenedFile{loaded->read_only || loaded->foreign, loaded->message};
@@ -65,40 +81,43 @@ FileKind kind_of_file(const fs::path& path) {
   return ending == ".jsonl" ? FileKind::kScript : FileKind::kPicture;
 }
 
-Result<OpenedFile> open_file(Session& session, const fs::path& path, const Watch& watch) {
+Result<OpenedFile> open_file(Session& session, const fs::path& path, const IoLimits& limits, const Watch& watch) {
   switch (kind_of_file(path)) {
   case FileKind::kProject:
-    return open_project(session, path, watch);
+    return open_project(session, path, limits, watch);
   case FileKind::kScript:
-    return open_script(session, path, watch);
+    return open_script(session, path, limits, watch);
   case FileKind::kPicture:
     break;
   }
-  auto picture = load_ref(path);
-  if (!picture) return picture.error();
   DocumentNew command;
-  command.target = std::move(*picture);
-  Session opened;
-  if (const auto done = opened.execute(command, watch); !done) return done.error();
-  session.adopt(std::move(opened));
+  command.target = ImageRef{path.string(), std::nullopt};
+  if (const auto made = make_document(session, command, limits, watch); !made) return made.error();
   return OpenedFile{};
 }
 
-Result<void> run_whole_script(Session& session, const fs::path& path, const fs::path& out, const Watch& watch) {
-  const auto run = run_script_file(session, path, out, watch);
+Result<void> make_document(Session& session, const DocumentNew& what, const IoLimits& limits, const Watch& watch) {
+  Session made;
+  if (auto done = load_and_execute(made, what, 0, limits, watch); !done) return done;
+  session.adopt(std::move(made));
+  return {};
+}
+
+Result<void> run_whole_script(Session& session, const fs::path& path, const fs::path& out, const IoLimits& limits,
+                              const Watch& watch) {
+  const auto run = run_script_file(session, path, out, watch, limits);
   return run ? Result<void>{} : run.error();
 }
 
-Result<void> add_source(Session& session, const fs::path& path, const Watch& watch) {
-  auto picture = load_ref(path);
-  if (!picture) return picture.error();
-  return session.execute(LayerAdd{std::move(*picture), std::nullopt}, watch);
+Result<void> add_source(Session& session, const fs::path& path, const IoLimits& limits, const Watch& watch) {
+  return load_and_execute(session, LayerAdd{{path.string(), std::nullopt}, std::nullopt},
+                          picture_bytes(session.document()), limits, watch);
 }
 
-Result<void> set_target(Session& session, const fs::path& path, const Watch& watch) {
-  auto picture = load_ref(path);
-  if (!picture) return picture.error();
-  return session.execute(TargetSet{std::move(*picture)}, watch);
+Result<void> set_target(Session& session, const fs::path& path, const IoLimits& limits, const Watch& watch) {
+  Document others = session.document();
+  others.target = {};
+  return load_and_execute(session, TargetSet{{path.string(), std::nullopt}}, picture_bytes(others), limits, watch);
 }
 
 Result<void> save_file(Session& session, const fs::path& path, const Watch& watch) {

@@ -2,6 +2,7 @@
 
 #include "core/base/result.h"
 #include "core/base/watch.h"
+#include "core/io/limits.h"
 #include "core/session/session.h"
 
 #include <filesystem>
@@ -29,15 +30,23 @@ struct OpenedFile {
 /// Makes the session what the file holds: a project, a script's commands (what it saves, exports and expects is left
 /// out: a window's document is no batch run), or a new document with the picture.
 /// @errors those of the readers and of the commands, with the file and line; the session stays as it was.
-Result<OpenedFile> open_file(Session& session, const std::filesystem::path& path, const Watch& watch);
+Result<OpenedFile> open_file(Session& session, const std::filesystem::path& path, const IoLimits& limits,
+                             const Watch& watch);
+
+/// A new document, as DocumentNew has it.
+/// @errors image.too-large, those of the command.
+Result<void> make_document(Session& session, const DocumentNew& what, const IoLimits& limits, const Watch& watch);
 
 /// Runs a script as the command line does, its output into `out`.
 Result<void> run_whole_script(Session& session, const std::filesystem::path& path, const std::filesystem::path& out,
-                              const Watch& watch);
+                              const IoLimits& limits, const Watch& watch);
 
 /// A new layer from a picture, or from the target itself ("@target").
-Result<void> add_source(Session& session, const std::filesystem::path& path, const Watch& watch);
-Result<void> set_target(Session& session, const std::filesystem::path& path, const Watch& watch);
+/// @errors image.too-large (more than the document's other pictures leave of the memory), those of the readers.
+Result<void> add_source(Session& session, const std::filesystem::path& path, const IoLimits& limits,
+                        const Watch& watch);
+Result<void> set_target(Session& session, const std::filesystem::path& path, const IoLimits& limits,
+                        const Watch& watch);
 
 /// Saves the whole session; marks it as saved.
 /// @errors save.unknown-extension, those of the writers.

@@ -59,6 +59,7 @@ Preferences read_preferences(const Json& json) {
   read(json, "smoothing", read_here.smoothing, kSmoothings);
   read(json, "tolerance_px", read_here.tolerance_px, 1, 100);
   read(json, "history_mib", read_here.history_mib, 1, 1 << 20);
+  read(json, "pictures_mib", read_here.pictures_mib, 16, 1 << 20);
   read(json, "system_dialog", read_here.system_dialog);
   if (const auto recent = json.find("recent_files"); recent != json.end() && recent->is_array())
     for (const Json& file : *recent)
@@ -74,6 +75,7 @@ void write_into(Json& json, const Preferences& preferences) {
   json["smoothing"] = name_of(preferences.smoothing, kSmoothings);
   json["tolerance_px"] = preferences.tolerance_px;
   json["history_mib"] = preferences.history_mib;
+  json["pictures_mib"] = preferences.pictures_mib;
   json["system_dialog"] = preferences.system_dialog;
   json["recent_files"] = Json::array();
   for (const fs::path& file : preferences.recent_files)
@@ -103,6 +105,11 @@ fs::path settings_path() {
   return folder / "oversketch" / "settings.json";
 }
 
+double stepped_tolerance(double tolerance_px, bool greater) {
+  const double step = std::max(1.0, std::round((greater ? 0.25 : 0.2) * tolerance_px));
+  return std::clamp(tolerance_px + (greater ? step : -step), 1.0, 100.0);
+}
+
 Preferences put_in_range(Preferences preferences) {
   const auto clamp = [](double& value, double least, double most, double otherwise) {
     value = std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
@@ -110,6 +117,7 @@ Preferences put_in_range(Preferences preferences) {
   clamp(preferences.ui_scale, 0.5, 3, 1);
   clamp(preferences.tolerance_px, 1, 100, 10);
   clamp(preferences.history_mib, 1, 1 << 20, 2048);
+  clamp(preferences.pictures_mib, 16, 1 << 20, 8192);
   if (preferences.recent_files.size() > kMostRecent) preferences.recent_files.resize(kMostRecent);
   return preferences;
 }

@@ -29,6 +29,9 @@ LoadedPreferences load_preferences(const std::filesystem::path& path);
 /// @errors file.write.
 Result<void> save_preferences(const Preferences& preferences, const std::filesystem::path& path);
 
+/// The next tolerance, screen pixels: a step that a hand can feel, whatever it is now.
+double stepped_tolerance(double tolerance_px, bool greater);
+
 /// Within their ranges; at most kMostRecent recent files.
 Preferences put_in_range(Preferences preferences);
 inline constexpr std::size_t kMostRecent = 12;

@@ -44,6 +44,9 @@ struct FrameReply {
   /// status bar that ends, something that moves.
   double next_frame_s = std::numeric_limits<double>::infinity();
 
+  /// A text field has the keyboard from the next frame on: what is typed meanwhile must wait for it.
+  bool field_awaits_keys = false;
+
   void ask_frame_at(double time_s) {
     if (time_s < next_frame_s) next_frame_s = time_s;
   }

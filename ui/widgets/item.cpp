@@ -39,6 +39,11 @@ void register_box(const DrawContext& context, std::string_view id, ImVec2 corner
   context.widgets.add(id, {corner.x, corner.y, end.x - corner.x, end.y - corner.y});
 }
 
+void give_keys_to_next_field(const DrawContext& context) {
+  ImGui::SetKeyboardFocusHere();
+  context.reply.field_awaits_keys = true;
+}
+
 void finish_item(const DrawContext& context, std::string_view id, const Tip& tip) {
   const ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

@@ -27,6 +27,9 @@ void finish_item(const DrawContext& context, std::string_view id, const Tip& tip
 /// @param hovered  the pointer is on it, and no button down.
 void tip_at_rest(const DrawContext& context, std::string_view id, bool hovered, const Tip& tip);
 
+/// To be called right before a text field, which is typed into from then on; nothing that is typed meanwhile is lost.
+void give_keys_to_next_field(const DrawContext& context);
+
 /// As finish_item() for a box that is no item: a panel, a picture.  Without a tip.
 void register_box(const DrawContext& context, std::string_view id, ImVec2 corner, ImVec2 end);
 

@@ -80,7 +80,7 @@ SliderChange draw_typing(const DrawContext& context, const RowBox& box, std::str
   ImGui::SetNextItemWidth(box.width());
   const float pad = std::max(0.0F, (box.height() - ImGui::GetFontSize()) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.look.px(8), pad));
-  if (stage == 1) ImGui::SetKeyboardFocusHere();
+  if (stage == 1) give_keys_to_next_field(context);
   const bool entered = ImGui::InputText("##text", text, sizeof text,
                                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::PopStyleVar();

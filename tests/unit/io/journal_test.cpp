@@ -3,6 +3,7 @@
 #include "core/image/image_io.h"
 #include "core/io/runner.h"
 
+#include "tests/support/kept_variable.h"
 #include "tests/unit/io/projects.h"
 
 #include <csignal>

@@ -279,10 +279,10 @@ TEST(CanvasInput, the_backslash_is_held) {
 TEST(CanvasInput, brackets_change_the_tolerance) {
   H hand(one_layer());
   hand.send({H::down(key_of(']')), H::down(key_of(']'))});
-  EXPECT_EQ(hand.state.preferences.tolerance_px, 14);
+  EXPECT_EQ(hand.state.preferences.tolerance_px, 16);
   for (int i = 0; i < 90; ++i)
     hand.send({H::down(key_of('['))});
-  EXPECT_EQ(hand.state.preferences.tolerance_px, 2);
+  EXPECT_EQ(hand.state.preferences.tolerance_px, 1);
 }
 
 TEST(CanvasInput, alts_own_press_counts) {

@@ -104,6 +104,22 @@ TEST_F(Dialogs, PreferencesTakeEffectAtOnce) {
   EXPECT_FALSE(take_one<action::ShowWindow>().shown);
 }
 
+TEST_F(Dialogs, MemoryIsSetByItsSliders) {
+  show([this](const DrawContext& context) { draw_preferences_dialog(preferences, false, events, context); }, true);
+  frame();
+  drag("preferences.pictures", 0.9F, 0.3F);
+  wait();
+  const auto pictures = take_all<action::SetPreferences>();
+  ASSERT_FALSE(pictures.empty());
+  EXPECT_NEAR(pictures.back().preferences.pictures_mib, 64 * std::pow(1024, 0.3), 64);
+  EXPECT_EQ(pictures.back().preferences.history_mib, Preferences().history_mib);
+  drag("preferences.history", 0.9F, 0.3F);
+  wait();
+  const auto history = take_all<action::SetPreferences>();
+  ASSERT_FALSE(history.empty());
+  EXPECT_NEAR(history.back().preferences.history_mib, 64 * std::pow(1024, 0.3), 64);
+}
+
 TEST_F(Dialogs, InterfaceSizeChangesWhenTheHandLetsGo) {
   show([this](const DrawContext& context) { draw_preferences_dialog(preferences, false, events, context); }, true);
   frame();
@@ -113,6 +129,22 @@ TEST_F(Dialogs, InterfaceSizeChangesWhenTheHandLetsGo) {
   const auto sets = take_all<action::SetPreferences>();
   ASSERT_EQ(sets.size(), 1U) << "the window would run away under the hand";
   EXPECT_NEAR(sets[0].preferences.ui_scale, 2, 0.05);
+}
+
+TEST_F(Dialogs, KeysWaitForTheFieldThatIsToHaveThem) {
+  int waited = 0;
+  bool typing = true;
+  const auto draw = [&](const DrawContext& context) {
+    draw_shortcut_window(search, events, context);
+    waited += context.reply.field_awaits_keys ? 1 : 0;
+    typing = ImGui::GetIO().WantTextInput;
+  };
+  show(draw, true);
+  EXPECT_EQ(waited, 1) << "the frame in which it appears, and no other";
+  EXPECT_FALSE(typing);
+  frame();
+  EXPECT_TRUE(typing) << "the second frame after that is the first that is asked";
+  EXPECT_EQ(waited, 1);
 }
 
 TEST_F(Dialogs, ShortcutsAreSearched) {

@@ -113,6 +113,37 @@ TEST_F(EditorTest, a_picture_becomes_a_document_of_its_own) {
   EXPECT_EQ(kept_->recent_files.front(), folder_ / "other.png");
 }
 
+TEST_F(EditorTest, pictures_take_no_more_memory_than_the_person_allows) {
+  const auto allow = [&](double mib) {
+    Preferences preferences = state().preferences;
+    preferences.pictures_mib = mib;
+    does(action::SetPreferences{preferences});
+  };
+  // 16 bytes a pixel: 9 MB and 12 MB.
+  const fs::path sea = picture("sea.png", 800, 750), fish = picture("fish.png", 1000, 786);
+  allow(16);
+  does(action::Open{sea});
+  does(action::AddSource{fish});
+  EXPECT_EQ(code_of_problem(), "image.too-large");
+  EXPECT_TRUE(snapshot()->document.layers.empty());
+  does(action::SetTarget{fish});
+  EXPECT_EQ(code_of_problem(), "none") << "the old target does not stay";
+  does(action::SetTarget{sea});
+  does(action::AddSource{std::string(kTargetName)});
+  EXPECT_EQ(snapshot()->document.layers.size(), 1u) << "the same picture twice takes memory once";
+  DocumentNew large;
+  large.width = large.height = 1100;
+  does(action::NewDocument{large});
+  EXPECT_EQ(code_of_problem(), "image.too-large");
+  EXPECT_EQ(state().tabs.size(), 1u);
+  allow(32);
+  does(action::AddSource{fish});
+  EXPECT_EQ(snapshot()->document.layers.size(), 2u);
+  does(action::NewDocument{large});
+  EXPECT_EQ(state().tabs.size(), 2u);
+  EXPECT_EQ(code_of_problem(), "none");
+}
+
 TEST_F(EditorTest, the_sample_opens_and_writes_nothing) {
   does(action::OpenSample{});
   ASSERT_EQ(state().tabs.size(), 1u);

@@ -53,7 +53,7 @@ protected:
   /// Three steps that are saved nowhere; the run ends as if it were killed.
   Document crash() {
     Program run(state_);
-    run.does(action::Open{picture("sea.png", 60)});
+    run.does(action::Open{picture("sea.jpg", 60)});
     run.does(action::AddSource{picture("fish.png", 50)});
     run.does(action::Execute{LayerRename{{}, "puffer"}});
     run.does(action::Undo{});
@@ -113,6 +113,7 @@ TEST_F(Recovery, what_a_crash_left_is_offered_and_comes_back_with_its_history) {
   EXPECT_TRUE(run.state().recovered.empty());
   EXPECT_EQ(run.snapshot()->document, lost);
   EXPECT_EQ(run.snapshot()->history.size(), 3u);
+  EXPECT_NE(run.snapshot()->history[0].find("sea.jpg"), std::string::npos) << run.snapshot()->history[0];
   EXPECT_EQ(run.snapshot()->cursor, 1u);
   EXPECT_TRUE(run.snapshot()->modified);
   EXPECT_EQ(run.state().tab()->name, "sea");

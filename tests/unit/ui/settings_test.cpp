@@ -1,5 +1,6 @@
 #include "ui/state/settings.h"
 
+#include "tests/support/kept_variable.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -49,6 +50,7 @@ Preferences unusual() {
   preferences.smoothing = Smoothing::kStabiliser;
   preferences.tolerance_px = 17.5;
   preferences.history_mib = 123;
+  preferences.pictures_mib = 456;
   preferences.system_dialog = true;
   preferences.recent_files = {"/ü/a b.ora", "/c.png"};
   return preferences;
@@ -83,7 +85,16 @@ TEST(Settings, the_keeper_writes_the_last_ones) {
   EXPECT_EQ(problem->code, "file.write");
 }
 
+TEST(Settings, tolerances_step_by_what_a_hand_feels_and_end) {
+  EXPECT_EQ(stepped_tolerance(10, true), 13);
+  EXPECT_EQ(stepped_tolerance(10, false), 8);
+  EXPECT_EQ(stepped_tolerance(2, true), 3);
+  EXPECT_EQ(stepped_tolerance(1, false), 1);
+  EXPECT_EQ(stepped_tolerance(90, true), 100);
+}
+
 TEST(Settings, the_file_lies_where_the_desktop_says) {
+  const testing::KeptVariable config("XDG_CONFIG_HOME"), home("HOME");
   setenv("XDG_CONFIG_HOME", "/somewhere", 1);
   EXPECT_EQ(settings_path(), "/somewhere/oversketch/settings.json");
   setenv("XDG_CONFIG_HOME", "relative", 1);

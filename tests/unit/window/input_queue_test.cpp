@@ -63,6 +63,12 @@ TEST(InputQueue, a_click_is_seen_down_and_up_and_where_it_was) {
   EXPECT_EQ(batches({move(5), button(true), button(false), move(99)}), (Sizes{2, 1, 1}));
 }
 
+TEST(InputQueue, what_was_typed_before_a_chord_keeps_its_own_frame) {
+  EXPECT_EQ(batches({key(key_of('A'), true), text('a'), key(key_of('A'), false), key(Key::kCtrl, true, true),
+                     key(key_of('S'), true, true)}),
+            (Sizes{3, 2}));
+}
+
 TEST(InputQueue, typed_letters_share_a_frame_and_keys_do_not) {
   EXPECT_EQ(batches({key(key_of('A'), true), text('a'), key(key_of('A'), false), key(key_of('B'), true), text('b'),
                      key(key_of('B'), false)}),
