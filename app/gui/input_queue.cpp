@@ -11,12 +11,17 @@ bool writes(const RawEvent& event) {
          !event.event.modifiers.alt;
 }
 
+bool is_modifier(const RawEvent& event) {
+  return event.event.key == Key::kShift || event.event.key == Key::kCtrl || event.event.key == Key::kAlt;
+}
+
 /// What a batch holds so far.
 struct Contents {
   bool button = false;
   bool wheel = false;
   bool text_or_letter = false;
   bool text = false;
+  bool key_of_chord = false;
   std::vector<int> keys;
 
   bool hides(const RawEvent& next) const {
@@ -32,7 +37,9 @@ struct Contents {
       return button || !keys.empty();
     case Kind::kKey:
       if (button || wheel) return true;
-      // Dear ImGui drops the text of a frame in which Ctrl is down, whichever came first.
+      // Dear ImGui knows of one state of Ctrl in a frame: a key pressed before it was let go is no chord there, and
+      // text typed before it was pressed is dropped.
+      if (is_modifier(next) && key_of_chord) return true;
       if (text && (next.event.key == Key::kCtrl || next.event.modifiers.ctrl)) return true;
       return writes(next) ? !keys.empty() : std::ranges::find(keys, next.code) != keys.end();
     case Kind::kEnter:
@@ -53,6 +60,7 @@ struct Contents {
       text_or_letter = true;
     else
       keys.push_back(event.code);
+    key_of_chord |= event.is_down() && !writes(event) && !is_modifier(event);
   }
 };
 

@@ -60,24 +60,25 @@ std::string describe_stages(const StageTimes& times) {
   return text.empty() ? "Time of the last solve." : "Time of the last solve, by stage:\n" + text;
 }
 
+/// While they are being measured a dash stands in for each, so that nothing below them moves.
 void draw_numbers(const DeformModel& model, const DrawContext& context) {
-  if (!model.metrics) return;
-  const Metrics& metrics = *model.metrics;
+  const bool known = model.metrics.has_value();
   NumberGrid grid(context);
-  grid.draw("deform.numbers.flipped", "Folded", std::to_string(model.flipped),
+  const auto draw = [&](const char* id, const char* label, const char* format, double value, const char* tip) {
+    grid.draw(id, label, known ? print(format, value) : "–", {tip, {}});
+  };
+  const Metrics metrics = known ? *model.metrics : Metrics{};
+  grid.draw("deform.numbers.flipped", "Folded", known ? std::to_string(model.flipped) : "–",
             {"Cells of the mesh that are turned inside out. There should be none.", {}}, model.flipped > 0);
-  grid.draw("deform.numbers.time", "Time", print("%.0f ms", model.times.total_ms()),
+  grid.draw("deform.numbers.time", "Time", known ? print("%.0f ms", model.times.total_ms()) : "–",
             {describe_stages(model.times), {}});
-  grid.draw(
-      "deform.numbers.sigma", "Mean σ1/σ2", print("%.2f", metrics.distortion.sigma_ratio_mean),
-      {"How far cells are squeezed on average: longest by shortest side of what a square becomes. 1 is not at all.",
-       {}});
-  grid.draw("deform.numbers.worst", "Worst", print("%.2f", metrics.distortion.sigma_ratio_max),
-            {"The same of the cell that is squeezed most.", {}});
-  grid.draw("deform.numbers.distance", "To sketch", print("%.2f px", metrics.sketch_distance.mean),
-            {"Mean distance between the part's boundary and the sketch, target pixels.", {}});
-  grid.draw("deform.numbers.farthest", "Farthest", print("%.1f px", metrics.sketch_distance.max),
-            {"The same where it is greatest.", {}});
+  draw("deform.numbers.sigma", "Mean σ1/σ2", "%.2f", metrics.distortion.sigma_ratio_mean,
+       "How far cells are squeezed on average: longest by shortest side of what a square becomes. 1 is not at all.");
+  draw("deform.numbers.worst", "Worst", "%.2f", metrics.distortion.sigma_ratio_max,
+       "The same of the cell that is squeezed most.");
+  draw("deform.numbers.distance", "To sketch", "%.2f px", metrics.sketch_distance.mean,
+       "Mean distance between the part's boundary and the sketch, target pixels.");
+  draw("deform.numbers.farthest", "Farthest", "%.1f px", metrics.sketch_distance.max, "The same where it is greatest.");
 }
 
 void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawContext& context) {

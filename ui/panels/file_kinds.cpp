@@ -2,6 +2,7 @@
 
 #include "core/image/image_io.h"
 #include "core/image/resample.h"
+#include "core/io/project.h"
 #include "ui/panels/file_listing.h"
 #include "ui/state/file_jobs.h"
 
@@ -24,9 +25,10 @@ constexpr std::uintmax_t kMostPreviewBytes = 64'000'000;
 FilePreview read_preview(const fs::path& path) {
   FilePreview preview{path, nullptr, {}};
   std::error_code error;
-  if (!is_picture(path)) return preview;
+  const bool project = kind_of_file(path) == FileKind::kProject;
+  if (!is_picture(path) && !project) return preview;
   if (fs::file_size(path, error) > kMostPreviewBytes || error) return preview;
-  const auto image = load_image(path);
+  const auto image = project ? load_project_picture(path) : load_image(path);
   if (!image) {
     preview.text = image.error().sentence;
     return preview;

@@ -1,6 +1,7 @@
 #include "ui/panels/file_browser.h"
 
 #include "core/image/image_io.h"
+#include "core/io/project.h"
 #include "tests/support/temp_folder.h"
 #include "tests/unit/ui/headless.h"
 
@@ -237,6 +238,16 @@ TEST_F(Browser, PicturesArePreviewedAndBadOnesSayWhy) {
   EXPECT_EQ(bad.picture, nullptr);
   EXPECT_FALSE(bad.text.empty());
   EXPECT_EQ(read_preview(root() / "text.txt").picture, nullptr);
+  Session session;
+  DocumentNew what;
+  what.width = 30;
+  what.height = 20;
+  ASSERT_TRUE(session.execute(what).ok());
+  ASSERT_TRUE(save_project(session, root() / "work.ora").ok());
+  const FilePreview project = read_preview(root() / "work.ora");
+  ASSERT_NE(project.picture, nullptr);
+  EXPECT_EQ(project.picture->width(), 30);
+  EXPECT_EQ(project.text, "30 × 20 px");
 }
 
 TEST_F(Browser, ItsWindowIsClicked) {

@@ -202,6 +202,11 @@ TEST_F(Panels, DeformationSetsMethodAndNumbers) {
                          "deform.numbers.distance", "deform.numbers.time"})
     EXPECT_TRUE(has(id)) << id;
   EXPECT_TRUE(take_one<action::WantAlternatives>().wanted);
+  const float below = at("deform.numbers.farthest", 0, 1).y;
+  auto measured = std::exchange(snapshot.layers[0].metrics, std::nullopt);
+  frame();
+  EXPECT_EQ(at("deform.numbers.farthest", 0, 1).y, below) << "nothing moves while it is measured anew";
+  snapshot.layers[0].metrics = std::move(measured);
   click("deform.method.paper");
   EXPECT_EQ(take_command<LayerSet>().method, DeformMethod::kPaper);
   drag("deform.follow", 0.2F, 0.8F);

@@ -69,6 +69,12 @@ TEST(InputQueue, what_was_typed_before_a_chord_keeps_its_own_frame) {
             (Sizes{3, 2}));
 }
 
+TEST(InputQueue, a_chord_is_seen_whichever_key_is_let_go_first) {
+  EXPECT_EQ(batches({key(key_of('A'), true, true), key(Key::kCtrl, false), key(key_of('A'), false)}), (Sizes{1, 1, 1}));
+  EXPECT_EQ(batches({key(Key::kCtrl, true, true), key(key_of('A'), true, true), key(Key::kCtrl, false)}),
+            (Sizes{2, 1}));
+}
+
 TEST(InputQueue, typed_letters_share_a_frame_and_keys_do_not) {
   EXPECT_EQ(batches({key(key_of('A'), true), text('a'), key(key_of('A'), false), key(key_of('B'), true), text('b'),
                      key(key_of('B'), false)}),
