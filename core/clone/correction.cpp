@@ -107,11 +107,12 @@ SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {
   const bool is_mixed = options.mode == BlendMode::kMixed;
   if (!is_mixed && options.screening == 0 && quality != CloneQuality::kExport) return {quality, false, 0, 1, 1};
   SolveWay way{std::nullopt, true, 0.03, 1, 40};
-  // A membrane is far from a screened solution.
-  if (options.screening == 0) way.membrane = CloneQuality::kDrag;
+  // A membrane is no better a start than zero for what is mixed, and far from a screened solution.
+  if (!is_mixed && options.screening == 0) way.membrane = CloneQuality::kDrag;
+  // Of bounds, for errors of 1.5 and 0.1: see MultigridSolve::Outcome.
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
-    way.tolerance_levels = 1.5, way.least = 2, way.most = 6;
-  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.1, way.least = 3, way.most = 20;
+    way.tolerance_levels = 2.2, way.least = 2, way.most = 6;
+  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.16, way.least = 3, way.most = 20;
   return way;
 }
 

@@ -2,6 +2,9 @@
 
 #include "core/clone/guidance.h"
 
+#include <array>
+#include <cstring>
+
 namespace oversketch {
 namespace {
 
@@ -29,10 +32,52 @@ OVERSKETCH_INLINE void residual_body(float* __restrict r, const float* b, const 
   }
 }
 
-OVERSKETCH_INLINE void add_half_body(float* __restrict u, const GridNeighbours& at, std::size_t count) {
-  const float *w = at.west, *e = at.east, *n = at.north, *s = at.south;
+OVERSKETCH_INLINE void add_half_body(float* __restrict u, const float* p, const float* q, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
-    u[i] += 0.5f * ((w[i] + e[i]) + (n[i] + s[i]));
+    u[i] += 0.5f * (p[i] + q[i]);
+}
+
+OVERSKETCH_INLINE void weigh_body(float* __restrict out, const float* middle, const float* above, const float* below,
+                                  std::size_t count) {
+  const float *next_above = above + kGridChannels, *next_below = below + kGridChannels;
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = middle[i] + 0.25f * ((above[i] + below[i]) + (next_above[i] + next_below[i]));
+}
+
+OVERSKETCH_INLINE float largest_body(const float* values, std::size_t count) {
+  using Lanes = float __attribute__((vector_size(32)));
+  constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(float);
+  Lanes largest = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    Lanes size;
+    std::memcpy(&size, values + i, sizeof size);
+    size = size < 0 ? -size : size;
+    largest = largest < size ? size : largest;
+  }
+  float out = 0;
+  const auto raise = [&out](float size) { out = out < size ? size : out; };
+  for (std::size_t k = 0; k < kLanes; ++k)
+    raise(largest[k]);
+  for (; i < count; ++i)
+    raise(values[i] < 0 ? -values[i] : values[i]);
+  return out;
+}
+
+/// Judges again, in double, the pairs so near kTie that float is too coarse to tell.
+void judge_exactly(const std::array<float*, 3>& out, PixelPlanes p, PixelPlanes q, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    double difference[6], norms[2] = {};
+    for (std::size_t k = 0; k < 6; ++k) {
+      difference[k] = static_cast<double>(p.first[k * p.stride + i]) - q.first[k * q.stride + i];
+      norms[k / 3] += difference[k] * difference[k];
+    }
+    const double more = norms[1] - norms[0], square = more * more, tie = kTie * (norms[0] + norms[1]);
+    if (square < 0.25 * tie || square > 4 * tie) continue;
+    const bool keeps = more > 0 && square > tie;
+    for (std::size_t k = 0; k < 3; ++k)
+      out[k][i] = keeps ? static_cast<float>(difference[3 + k] - difference[k]) : 0.0f;
+  }
 }
 
 OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict green, float* __restrict blue,
@@ -42,18 +87,21 @@ OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict gre
   const float *q0 = q.first, *q1 = q0 + q.stride, *q2 = q1 + q.stride, *q3 = q2 + q.stride, *q4 = q3 + q.stride,
               *q5 = q4 + q.stride;
   constexpr float kTieFloat = static_cast<float>(kTie);
+  int doubtful = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float s0 = p0[i] - q0[i], s1 = p1[i] - q1[i], s2 = p2[i] - q2[i];
     const float t0 = p3[i] - q3[i], t1 = p4[i] - q4[i], t2 = p5[i] - q5[i];
     const float s = (s0 * s0 + s1 * s1) + s2 * s2, t = (t0 * t0 + t1 * t1) + t2 * t2, more = t - s;
     // Which of two noises is stronger cannot be foretold: no branch.
-    const float above = more * more - kTieFloat * (s + t);
+    const float square = more * more, tie = kTieFloat * (s + t), above = square - tie;
     const float least = above < more ? above : more;
     const float keep = least > 0 ? 1.0f : 0.0f;
+    doubtful |= (square > 0.5f * tie ? 1 : 0) & (square < 2 * tie ? 1 : 0);
     red[i] = keep * (t0 - s0);
     green[i] = keep * (t1 - s1);
     blue[i] = keep * (t2 - s2);
   }
+  if (doubtful != 0) judge_exactly({red, green, blue}, p, q, count);
 }
 
 OVERSKETCH_INLINE void add_pairs_body(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,
@@ -85,8 +133,15 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
                               float extra) {                                                                           \
     residual_body(r, b, u, at, count, extra);                                                                          \
   }                                                                                                                    \
-  target void add_half_##name(float* u, const GridNeighbours& at, std::size_t count) {                                 \
-    add_half_body(u, at, count);                                                                                       \
+  target void add_half_##name(float* u, const float* p, const float* q, std::size_t count) {                           \
+    add_half_body(u, p, q, count);                                                                                     \
+  }                                                                                                                    \
+  target void weigh_##name(float* out, const float* middle, const float* above, const float* below,                    \
+                           std::size_t count) {                                                                        \
+    weigh_body(out, middle, above, below, count);                                                                      \
+  }                                                                                                                    \
+  target float largest_##name(const float* values, std::size_t count) {                                                \
+    return largest_body(values, count);                                                                                \
   }                                                                                                                    \
   target void surplus_##name(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {        \
     surplus_body(out, out + stride, out + 2 * stride, p, q, count);                                                    \
@@ -98,8 +153,9 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
   target bool are_finite_##name(const float* values, std::size_t count) {                                              \
     return are_finite_body(values, count);                                                                             \
   }                                                                                                                    \
-  constexpr GridKernels k_##name = {relax_##name,   relax_zero_##name, residual_##name,  add_half_##name,              \
-                                    surplus_##name, add_pairs_##name,  are_finite_##name};
+  constexpr GridKernels k_##name = {                                                                                   \
+      relax_##name,   relax_zero_##name, residual_##name,  add_half_##name,  weigh_##name,                             \
+      largest_##name, surplus_##name,    add_pairs_##name, are_finite_##name};
 
 OVERSKETCH_KERNELS(plain, )
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -4,6 +4,9 @@
 
 namespace oversketch {
 
+/// Channels that are solved at once, one after the other in memory: a slot.
+inline constexpr int kGridChannels = 3;
+
 /// The left, right, upper and lower neighbours of values that lie one after the other.
 struct GridNeighbours {
   const float* west;
@@ -28,9 +31,14 @@ struct GridKernels {
   void (*relax_zero)(float* u, const float* b, std::size_t count, float inverse);
   /// r = b + (w − u) + (e − u) + (n − u) + (s − u) − extra u: accurate where u is smooth.
   void (*residual)(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count, float extra);
-  /// u += (w + e + n + s) / 2
-  void (*add_half)(float* u, const GridNeighbours& at, std::size_t count);
-  /// For `count` pairs of pixels p, q: (f*_p − f*_q) − (g_p − g_q) where the target is stronger (guidance.h), else 0.
+  /// u += (p + q) / 2
+  void (*add_half)(float* u, const float* p, const float* q, std::size_t count);
+  /// out_i = middle_i + (above_i + below_i + above_{i + 1} + below_{i + 1}) / 4, i + 1 the next slot.
+  void (*weigh)(float* out, const float* middle, const float* above, const float* below, std::size_t count);
+  /// The largest |value|, at least 0; not-a-number is passed over.
+  float (*largest)(const float* values, std::size_t count);
+  /// For `count` pairs of pixels p, q: (f*_p − f*_q) − (g_p − g_q) where the target is stronger (guidance.h), else 0;
+  /// judged in double where float cannot tell.
   /// Three planes, `stride` floats apart.
   void (*surplus)(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count);
   /// sum_i = (along_{i + 1} − along_i) + down_i of three planes each, all `stride`s in floats.

@@ -37,8 +37,9 @@ std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
 void run_band(GridRows& rows, const std::vector<RowStage>& stages, int begin, int end, bool is_first, bool is_last) {
   const int lag = stages.back().lag;
   for (int head = begin; head < end + lag; ++head) {
-    if (head + kAhead < end) rows.fetch(head + kAhead);
+    std::size_t part = 0;
     for (const RowStage& stage : stages) {
+      if (head + kAhead < end) rows.fetch(head + kAhead, part++, stages.size());
       const int row = head - stage.lag;
       if (row >= begin + (is_first ? 0 : stage.lag) && row < end - (is_last ? 0 : stage.lag)) stage.run(rows, row);
     }

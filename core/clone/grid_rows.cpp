@@ -63,13 +63,15 @@ std::size_t GridRows::longest_cells(const GridLevel& level) {
   int longest = 0;
   for (std::size_t run = 0; run + 1 < level.runs.size(); ++run)
     longest = std::max(longest, level.runs[run + 1].first - level.runs[run].first);
-  return at_slot((longest + 1) / 2);
+  return at_slot((longest + 1) / 2 + 1);
 }
 
-void GridRows::fetch(int row) const {
+void GridRows::fetch(int row, std::size_t part, std::size_t parts) const {
   constexpr std::size_t kLine = 64 / sizeof(float);
-  const std::size_t end = at_slot(level_.last_in(row));
-  for (std::size_t at = at_slot(level_.first_in(row)); at < end; at += kLine) {
+  const std::size_t begin = at_slot(level_.first_in(row)), end = at_slot(level_.last_in(row));
+  const std::size_t lines = (end - begin + kLine - 1) / kLine;
+  const std::size_t until = begin + lines * (part + 1) / parts * kLine;
+  for (std::size_t at = begin + lines * part / parts * kLine; at < until; at += kLine) {
     __builtin_prefetch(values_.b + at, 0, 2);
     __builtin_prefetch(values_.u + at, 1, 2);
   }
@@ -160,10 +162,9 @@ void GridRows::inject(int row, const GridLevel& coarse, const float* coarse_u, f
 void GridRows::correct(int row) {
   // Of the four neighbours only those in rows with coarse nodes carry anything.
   const bool level_ones = has_coarse_nodes(row);
-  for_cells(row, 1 - level_.coarse_colour(), [&](int slot, GridNeighbours at, std::size_t count) {
-    (level_ones ? at.north : at.west) = zeros_;
-    (level_ones ? at.south : at.east) = zeros_;
-    kernels_.add_half(values_.u + at_slot(slot), at, count);
+  for_cells(row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
+    kernels_.add_half(values_.u + at_slot(slot), level_ones ? at.west : at.north, level_ones ? at.east : at.south,
+                      count);
   });
 }
 
@@ -195,31 +196,28 @@ float GridRows::largest_residual(int row) {
     const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(level_.coarse_colour())];
     if (cells.count == 0) continue;
     const float* const at = r + at_slot(cells.at - level_.first_in(row));
-    for (std::size_t i = 0; i < at_slot(cells.count); ++i)
-      largest = std::max(largest, std::abs(at[i]));
+    largest = std::max(largest, kernels_.largest(at, at_slot(cells.count)));
   }
   return largest;
 }
 
-/// Adds the residuals at x0, x0 + 2, … x1 of a row.
-void GridRows::add_corners(int row, int x0, int x1, std::span<float> corners) {
-  const float* const r = residual(row);
-  const int first = level_.first_in(row);
-  const auto begin = level_.runs.begin() + level_.begin_of(row), end = level_.runs.begin() + level_.end_of(row);
-  auto after = std::upper_bound(begin, end, x0, [](int x, const GridLevel::Run& run) { return x < run.x0; });
+const float* GridRows::corners(int row, int side, int x0, int x1, std::vector<float>& room) {
+  const int near = row + side;
+  if (near < 0 || near >= level_.rows() || level_.y_of(near) != level_.y_of(row) + side) return zeros_;
+  const float* const r = residual(near);
+  const auto at = [&](int run, int x) { return r + at_slot(level_.slot(run, x) - level_.first_in(near)); };
+  const auto begin = level_.runs.begin() + level_.begin_of(near), end = level_.runs.begin() + level_.end_of(near);
+  const auto after = std::upper_bound(begin, end, x0, [](int x, const GridLevel::Run& run) { return x < run.x0; });
   int run = static_cast<int>(after - level_.runs.begin());
-  if (after != begin) --run;
-  for (; run < level_.end_of(row) && level_.x0_of(run) <= x1; ++run) {
+  if (after != begin && x1 < level_.x1_of(--run)) return at(run, x0);
+  room.assign(at_slot((x1 - x0) / 2 + 1), 0.0f);
+  for (; run < level_.end_of(near) && level_.x0_of(run) <= x1; ++run) {
     int from = std::max(x0, level_.x0_of(run));
     from += (from ^ x0) & 1;
     const int to = std::min(x1, level_.x1_of(run) - 1);
-    if (from > to) continue;
-    const float* const values = r + at_slot(level_.slot(run, from) - first);
-    float* const sums = corners.data() + at_slot((from - x0) / 2);
-    const std::size_t count = at_slot((to - from) / 2 + 1);
-    for (std::size_t i = 0; i < count; ++i)
-      sums[i] += values[i];
+    if (from <= to) std::copy_n(at(run, from), at_slot((to - from) / 2 + 1), room.data() + at_slot((from - x0) / 2));
   }
+  return room.data();
 }
 
 void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coarse_b) {
@@ -230,14 +228,11 @@ void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coars
     const int length = coarse.x1_of(run) - coarse.x0_of(run), x = 2 * coarse.x0_of(run) + level_.coarse_x;
     while (level_.x1_of(fine) <= x)
       ++fine;
-    corners_.assign(at_slot(length + 1), 0.0f);
-    for (const int side : {-1, 1})
-      if (const int near = row + side; near >= 0 && near < level_.rows() && level_.y_of(near) == y + side)
-        add_corners(near, x - 1, x + 2 * length - 1, corners_);
+    const float* const above = corners(row, -1, x - 1, x + 2 * length - 1, corners_[0]);
+    const float* const below = corners(row, 1, x - 1, x + 2 * length - 1, corners_[1]);
     if (line_.size() < at_slot(length + 1)) line_.resize(at_slot(length + 1));
-    const float* const at = centre + at_slot(level_.slot(fine, x) - level_.first_in(row));
-    for (std::size_t i = 0; i < at_slot(length); ++i)
-      line_[i] = at[i] + 0.25f * (corners_[i] + corners_[i + kC]);
+    const float* const middle = centre + at_slot(level_.slot(fine, x) - level_.first_in(row));
+    kernels_.weigh(line_.data(), middle, above, below, at_slot(length));
     split(line_.data(), length, coarse_b + at_slot(coarse.first_of(run)));
   }
 }

@@ -9,9 +9,6 @@
 
 namespace oversketch {
 
-/// Channels that are solved at once, one after the other in memory.
-inline constexpr int kGridChannels = 3;
-
 /// The values of one grid, kGridChannels floats a slot: the unknown and the right-hand side.
 struct GridValues {
   float* u = nullptr;
@@ -30,7 +27,8 @@ public:
   static std::size_t longest_cells(const GridLevel& level);
 
   /// Asks for the values of a row that is needed soon: halves of rows are too short for the processor to foresee them.
-  void fetch(int row) const;
+  /// One of `parts` parts of the row, so that what is done in between hides the time that they take.
+  void fetch(int row, std::size_t part, std::size_t parts) const;
 
   /// Gauss-Seidel: u of one colour from the other.
   void relax(int row, int colour);
@@ -56,7 +54,9 @@ private:
   const std::vector<GridPiece>& pieces(int row);
   /// The residual of the coarse nodes' colour, kGridChannels floats a slot of the row.
   const float* residual(int row);
-  void add_corners(int row, int x0, int x1, std::span<float> corners);
+  /// The residuals at x0, x0 + 2, … x1 of the row beside another, 0 where there is none; in `room` if they must be put
+  /// together.
+  const float* corners(int row, int side, int x0, int x1, std::vector<float>& room);
   bool has_coarse_nodes(int row) const { return ((level_.y_of(row) - level_.coarse_y) & 1) == 0; }
   template <class Work>
   void for_cells(int row, int colour, Work work);
@@ -72,7 +72,8 @@ private:
   std::array<std::vector<GridPiece>, 16> pieces_;
   std::array<int, 16> pieces_row_ = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   std::array<Residual, 4> residuals_;
-  std::vector<float> line_, corners_;
+  std::vector<float> line_;
+  std::array<std::vector<float>, 2> corners_;
 };
 
 } // namespace oversketch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/bulk_allocator.h"
 #include "core/clone/domain_tables.h"
 #include "core/clone/lazy.h"
 #include "core/clone/live.h"
@@ -13,7 +14,7 @@ namespace oversketch {
 struct LiveRegion::Data {
   CloneSystem system;
   /// By pixel number.
-  std::vector<LivePixel> pixels;
+  std::vector<LivePixel, BulkAllocator<LivePixel>> pixels;
   /// The source at the outer pixel of each of the graph's ring edges.
   std::vector<Rgba> ring;
   /// Where the ring's pixels are, row by row, each once.

@@ -278,8 +278,60 @@ TEST(GridKernels, AllSetsGiveTheSameBits) {
     same([&](const GridKernels& k, float* out) { k.relax(out, &in[284], at, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.relax_zero(out, &in[284], count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.residual(out, &in[284], &in[400], at, count, 0.1f); });
-    same([&](const GridKernels& k, float* out) { k.add_half(out, at, count); });
+    same([&](const GridKernels& k, float* out) { k.add_half(out, at.north, at.south, count); });
+    same([&](const GridKernels& k, float* out) { k.weigh(out, &in[284], at.north, at.south, count); });
+    EXPECT_EQ(plain.largest(&in[5], count), best.largest(&in[5], count));
     same([&](const GridKernels& k, float* out) { k.surplus(out, 64, {&in[0], 31}, {&in[1], 31}, count); });
+  }
+}
+
+TEST(GridKernels, FindTheLargestWhereverItStands) {
+  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()})
+    for (std::size_t count = 0; count < 40; ++count)
+      for (std::size_t at = 0; at < count; ++at) {
+        std::vector<float> values(count + 1, 0.5f);
+        values[at] = at % 2 == 0 ? -2.0f : 2.0f;
+        values[count] = 9;
+        EXPECT_EQ(kernels.largest(values.data(), count), 2) << count << " " << at;
+      }
+}
+
+/// Of pairs whose differences are almost equally strong the stronger one is found, whatever float makes of them.
+TEST(GridKernels, JudgeNearTiesExactly) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(-0.04f, 0.04f);
+  constexpr std::size_t kPairs = 20'000;
+  std::vector<float> p(6 * kPairs), q(6 * kPairs, 0.0f), out(3 * kPairs);
+  const auto in = [&](std::size_t plane, std::size_t i) -> float& { return p[plane * kPairs + i]; };
+  const auto strength = [&](std::size_t first, std::size_t i) {
+    double sum = 0;
+    for (std::size_t k = first; k < first + 3; ++k)
+      sum += static_cast<double>(in(k, i)) * in(k, i);
+    return sum;
+  };
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    for (std::size_t k = 0; k < 6; ++k)
+      in(k, i) = value(random);
+    // As far above the source's strength as a tie reaches, up to rounding.
+    in(5, i) = 0.1f;
+    for (std::size_t k = 0; k < 3; ++k)
+      in(k, i) += in(3 + k, i);
+    for (int step = 0; step < 20; ++step) {
+      const double s = strength(0, i), t = strength(3, i), wanted = s + std::sqrt(kTie * (s + t));
+      in(5, i) = static_cast<float>(in(5, i) + (wanted - t) / (2 * in(5, i)));
+    }
+  }
+  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()}) {
+    kernels.surplus(out.data(), kPairs, {p.data(), kPairs}, {q.data(), kPairs}, kPairs);
+    int kept = 0;
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      const double s = strength(0, i), t = strength(3, i), more = t - s;
+      const bool keeps = more > 0 && more * more > kTie * (s + t);
+      kept += keeps ? 1 : 0;
+      ASSERT_EQ(out[i] != 0, keeps) << i;
+    }
+    EXPECT_GT(kept, static_cast<int>(kPairs / 10));
+    EXPECT_LT(kept, static_cast<int>(kPairs - kPairs / 10));
   }
 }
 
