@@ -9,6 +9,8 @@
 #include <complex>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace oversketch::cli {
@@ -19,7 +21,7 @@ constexpr double kQuad = 16;
 constexpr double kShrink = 3;
 
 /// Waves and grain, opaque.
-Image make_source(int width, int height) {
+Raster<Rgba> make_source(int width, int height) {
   std::uint32_t state = 1;
   Raster<Rgba> pixels(width, height);
   for (int y = 0; y < height; ++y)
@@ -29,6 +31,15 @@ Image make_source(int width, int height) {
       const float wave = 0.5F + 0.3F * std::sin(0.021F * static_cast<float>(x) + 0.034F * static_cast<float>(y));
       pixels.at(x, y) = {wave + grain, 0.9F * wave + grain, 0.8F * wave, 1};
     }
+  return pixels;
+}
+
+/// The same, each pixel half transparent or so.
+Image make_translucent(const Image& opaque) {
+  Raster<Rgba> pixels = opaque.pixels();
+  int i = 0;
+  for (Rgba& pixel : pixels.values())
+    pixel.a = 0.3F + 0.1F * static_cast<float>(i++ % 5);
   return Image(std::move(pixels));
 }
 
@@ -75,71 +86,76 @@ WarpBench make_warp(double pixels, double shrink) {
         out.mesh.cells.push_back({vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)});
   out.mesh.cell = shrink * kQuad;
   const int size = static_cast<int>(shrink * (2 * kQuad * half + 2));
-  out.source = make_source(size, size);
+  out.source = Image(make_source(size, size));
   return out;
 }
 
-struct WarpRow {
-  std::string name;
-  bool shrunk;
-  WarpOptions options;
-};
+std::string prefix_of(const std::string& size) {
+  return std::string("warp.").append(size).append(".");
+}
 
 Result<void> run_size(const std::string& size, double pixels, const BenchInput& input, BenchRecord& record) {
-  WarpOptions plain, cubic;
-  cubic.sampling = Sampling::kBicubic;
-  for (const bool shrunk : {false, true}) {
-    const WarpBench bench = make_warp(pixels, shrunk ? kShrink : 1);
-    const ImagePyramid source(bench.source);
-    const std::string item = std::to_string(bench.mask.count()) + " px";
-    for (const auto& sampling : {std::pair{"bilinear", plain}, std::pair{"bicubic", cubic}}) {
-      const std::string name = sampling.first;
-      WarpOptions options = sampling.second;
-      if (shrunk && options.sampling == Sampling::kBicubic) continue;
-      for (const Simd simd : {Simd::kBest, Simd::kBaseline}) {
-        options.simd = simd;
-        const std::string row =
-            "warp." + size + "." + (shrunk ? "minified" : name) + (simd == Simd::kBaseline ? ".baseline" : "");
-        const auto done = record.repeat(
-            row, item, input.runs,
-            [&] { return warp_region(source, bench.mesh, bench.deformed, bench.mask, input.watch, nullptr, options); },
-            1e6 / static_cast<double>(bench.mask.count()));
-        if (!done) return done.error();
-      }
+  const auto measure = [&](const std::string& name, const WarpBench& bench, const Image& picture, Sampling sampling) {
+    const ImagePyramid source(picture);
+    WarpOptions options;
+    options.sampling = sampling;
+    for (const Simd simd : {Simd::kBest, Simd::kBaseline}) {
+      options.simd = simd;
+      // As a session does: into the memory of a result that it has dropped.
+      Raster<Rgba> spare;
+      const auto done = record.repeat(
+          prefix_of(size) + name + (simd == Simd::kBaseline ? ".baseline" : ""),
+          std::to_string(bench.mask.count()) + " px", input.runs,
+          [&]() -> Result<void> {
+            auto warped = warp_region(source, bench.mesh, bench.deformed, bench.mask, input.watch, nullptr, options,
+                                      std::move(spare));
+            if (!warped) return warped.error();
+            spare = std::move(warped->pixels);
+            return {};
+          },
+          1e6 / static_cast<double>(bench.mask.count()));
+      if (!done) return done;
     }
-  }
-  return {};
+    return Result<void>();
+  };
+  const WarpBench plain = make_warp(pixels, 1);
+  if (auto done = measure("bilinear", plain, plain.source, Sampling::kBilinear); !done) return done;
+  if (auto done = measure("bicubic", plain, plain.source, Sampling::kBicubic); !done) return done;
+  if (auto done = measure("alpha", plain, make_translucent(plain.source), Sampling::kBilinear); !done) return done;
+  const WarpBench shrunk = make_warp(pixels, kShrink);
+  return measure("minified", shrunk, shrunk.source, Sampling::kBilinear);
+}
+
+std::vector<BenchRow> rows_of(const std::string& size, std::optional<double> prototype,
+                              std::optional<double> baseline_prototype) {
+  const std::string name = prefix_of(size);
+  const auto baseline = [&](const std::string& row, std::optional<double> before = {}) {
+    return BenchRow{name + row + ".baseline", "ns", "  without AVX2", {}, before};
+  };
+  return {{name + "bilinear", "ns", std::string("a pixel of ").append(size).append(", 16-px quads"), BenchGoal{5.5},
+           prototype},
+          baseline("bilinear", baseline_prototype),
+          {name + "bicubic", "ns", "  bicubic", {}, {}},
+          baseline("bicubic"),
+          {name + "alpha", "ns", "  bilinear, the source translucent", {}, {}},
+          baseline("alpha"),
+          {name + "minified", "ns", "  shrunk to a third, the pyramid made", {}, {}},
+          baseline("minified")};
 }
 
 } // namespace
 
 std::vector<BenchGroup> warp_benches() {
-  return {
-      {{{"warp.262k.bilinear", "ns", "a pixel of 262k, 16-px quads", BenchGoal{5.5}, 5.5},
-        {"warp.262k.bilinear.baseline", "ns", "  without AVX2", {}, 11.8},
-        {"warp.262k.bicubic", "ns", "  bicubic", {}, {}},
-        {"warp.262k.bicubic.baseline", "ns", "  without AVX2", {}, {}},
-        {"warp.262k.minified", "ns", "  shrunk to a third, the pyramid made", {}, {}},
-        {"warp.262k.minified.baseline", "ns", "  without AVX2", {}, {}}},
-       false,
-       [](const BenchInput& input, BenchRecord& record) { return run_size("262k", 262'144, input, record); }},
-      {{{"warp.1m.bilinear", "ns", "a pixel of 1M, 16-px quads", BenchGoal{5.5}, {}},
-        {"warp.1m.bilinear.baseline", "ns", "  without AVX2", {}, {}},
-        {"warp.1m.bicubic", "ns", "  bicubic", {}, {}},
-        {"warp.1m.bicubic.baseline", "ns", "  without AVX2", {}, {}},
-        {"warp.1m.minified", "ns", "  shrunk to a third, the pyramid made", {}, {}},
-        {"warp.1m.minified.baseline", "ns", "  without AVX2", {}, {}}},
-       false,
-       [](const BenchInput& input, BenchRecord& record) { return run_size("1m", 1'048'576, input, record); }},
-      {{{"warp.4m.bilinear", "ns", "a pixel of 4M, 16-px quads", BenchGoal{5.5}, {}},
-        {"warp.4m.bilinear.baseline", "ns", "  without AVX2", {}, {}},
-        {"warp.4m.bicubic", "ns", "  bicubic", {}, {}},
-        {"warp.4m.bicubic.baseline", "ns", "  without AVX2", {}, {}},
-        {"warp.4m.minified", "ns", "  shrunk to a third, the pyramid made", {}, {}},
-        {"warp.4m.minified.baseline", "ns", "  without AVX2", {}, {}}},
-       false,
-       [](const BenchInput& input, BenchRecord& record) { return run_size("4m", 4'194'304, input, record); }},
+  std::vector<BenchGroup> groups;
+  const auto add = [&](const std::string& size, double pixels, std::vector<BenchRow> rows) {
+    groups.push_back({std::move(rows), false, [=](const BenchInput& input, BenchRecord& record) {
+                        return run_size(size, pixels, input, record);
+                      }});
   };
+  add("262k", 262'144, rows_of("262k", 5.5, 11.8));
+  add("1m", 1'048'576, rows_of("1m", {}, {}));
+  add("4m", 4'194'304, rows_of("4m", {}, {}));
+  return groups;
 }
 
 } // namespace oversketch::cli

@@ -22,6 +22,14 @@ public:
   Raster(int width, int height, T fill = T{})
       : width_(width), height_(height), values_(checked_count(width, height), fill) {}
   Raster(int width, int height, Unset) : width_(width), height_(height), values_(checked_count(width, height)) {}
+  /// In the memory of one that is not needed any more, where that is enough and not more than twice what is: pages new
+  /// from the system, which must clear them, cost as much as a quarter of what is drawn into them.
+  Raster(int width, int height, Unset, Raster&& spare) : width_(width), height_(height) {
+    const std::size_t count = checked_count(width, height), room = spare.values_.capacity();
+    if (room >= count && room / 2 <= count) values_ = std::move(spare.values_);
+    spare = Raster();
+    values_.resize(count);
+  }
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -35,6 +35,15 @@ public:
     return entries_.front().second;
   }
 
+  /// Drops now what the next put() would drop, for what it is made of; null where that would drop nothing, or something
+  /// that is in use.
+  std::shared_ptr<const T> drop_last() {
+    if (entries_.size() < capacity_ || entries_.empty() || entries_.back().second.use_count() > 1) return nullptr;
+    std::shared_ptr<const T> last = std::move(entries_.back().second);
+    entries_.pop_back();
+    return last;
+  }
+
 private:
   std::size_t capacity_;
   std::vector<std::pair<Hash, std::shared_ptr<const T>>> entries_;

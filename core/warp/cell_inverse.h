@@ -35,6 +35,8 @@ public:
   RowInverse row(int x, int y) const;
   /// The same of a gentle cell.
   GentleRow gentle_row(int x, int y) const;
+  /// About how far apart the source points of a pixel and the one below lie in a gentle cell; elsewhere 0.
+  Point step_down() const { return step_y_; }
   /// Outside the cell the formula goes on, and may give anything, not-a-number included.
   Place locate(Point p) const;
   /// What `place` grows by for a step in the plane, linearly.

@@ -25,6 +25,13 @@ Rgba straight(const Lanes& sum) {
   return std::bit_cast<Rgba>(color);
 }
 
+/// How many pixels of the texture lie between a point and where a row of points soon comes by.
+std::ptrdiff_t ahead(const Texture& texture, Point step_down) {
+  constexpr double kRows = 4;
+  const Point step = kRows * step_down;
+  return static_cast<std::ptrdiff_t>(std::lround(step.y)) * texture.width + std::lround(step.x);
+}
+
 /// One of the values of a vertex at a cell's corners.
 std::array<Point, 4> pick(const std::array<Minification::Vertex, 4>& corners, Point Minification::Vertex::*of) {
   return {corners[0].*of, corners[1].*of, corners[2].*of, corners[3].*of};
@@ -43,6 +50,8 @@ struct RegionPainter::Places {
   /// See Minification::Vertex; `unused` takes what has no second component.
   Values stage{}, unused{}, x_along_x{}, y_along_x{}, x_along_y{}, y_along_y{};
   Values u{}, v{};
+  /// See CellInverse::step_down, of one of their cells.
+  Point down;
 };
 
 RegionPainter::RegionPainter(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
@@ -72,6 +81,7 @@ void RegionPainter::paint_run(const Mask::Run& run, std::span<const CellSpan> sp
   for (int x = run.x0; x < run.x1;) {
     const int begin = x, end = std::min(run.x1, x + kMost);
     places.shrunk = false;
+    places.down = {};
     while (x < end) {
       while (span != spans.end() && span->x1 <= x)
         ++span;
@@ -118,6 +128,7 @@ void RegionPainter::place(int cell, int x, int y, int at, int count, Places& pla
     kernels_.evaluate(form, count, u, v, &to_x[static_cast<std::size_t>(at)], &to_y[static_cast<std::size_t>(at)]);
   };
   const bool shrunk = minification_.touches(cell);
+  places.down = inverse.step_down();
   if (inverse.is_gentle())
     kernels_.map_gently(inverse.gentle_row(x, y), count, &places.x[static_cast<std::size_t>(at)],
                         &places.y[static_cast<std::size_t>(at)]);
@@ -157,7 +168,7 @@ void RegionPainter::clear_shrinking(int at, int count, Places& places) const {
 void RegionPainter::sample(int count, Places& places, Rgba* out) const {
   if (places.shrunk) return sample_shrunk(count, places, out);
   const auto kernel = options_.sampling == Sampling::kBicubic ? kernels_.bicubic : kernels_.bilinear;
-  kernel(texture_, count, places.x.data(), places.y.data(), out);
+  kernel(texture_, count, places.x.data(), places.y.data(), ahead(texture_, places.down), out);
 }
 
 void RegionPainter::sample_shrunk(int count, Places& places, Rgba* out) const {
@@ -189,7 +200,7 @@ void RegionPainter::sample_stage(int stage, int count, const Places& places, Lan
   std::array<Rgba, kMost> colors;
   if (stage == 0) {
     const auto kernel = options_.sampling == Sampling::kBicubic ? kernels_.bicubic : kernels_.bilinear;
-    kernel(texture_, count, places.x.data(), places.y.data(), colors.data());
+    kernel(texture_, count, places.x.data(), places.y.data(), ahead(texture_, places.down), colors.data());
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       out[i] = premultiplied(colors[i]);
     return;
@@ -198,12 +209,13 @@ void RegionPainter::sample_stage(int stage, int count, const Places& places, Lan
   const double scale = std::ldexp(1.0, 1 - stage);
   std::fill_n(out, count, Lanes{});
   Values x, y;
+  const std::ptrdiff_t further = ahead(texture, scale * places.down);
   for (const auto& [right, down] : {std::pair{-1, -1}, std::pair{1, -1}, std::pair{-1, 1}, std::pair{1, 1}}) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       x[i] = scale * (places.x[i] + right * places.x_along_x[i] + down * places.x_along_y[i]);
       y[i] = scale * (places.y[i] + right * places.y_along_x[i] + down * places.y_along_y[i]);
     }
-    kernels_.bilinear(texture, count, x.data(), y.data(), colors.data());
+    kernels_.bilinear(texture, count, x.data(), y.data(), further, colors.data());
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       out[i] += 0.25F * premultiplied(colors[i]);
   }

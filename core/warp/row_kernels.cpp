@@ -85,8 +85,8 @@ OVERSKETCH_INLINED Located locate(double coordinate, double limit) {
 
 /// In two sweeps: places, which the compiler makes vector code of, then colours.
 template <class Taps, class MixInside>
-OVERSKETCH_INLINED void sample_row(const Texture& texture, int count, const double* x, const double* y, Rgba* out,
-                                   MixInside mix_inside) {
+OVERSKETCH_INLINED void sample_row(const Texture& texture, int count, const double* x, const double* y,
+                                   std::ptrdiff_t ahead, Rgba* out, MixInside mix_inside) {
   if (count <= 0) return;
   std::array<int, kMost> first;
   std::array<float, kMost> part_x, part_y;
@@ -101,7 +101,7 @@ OVERSKETCH_INLINED void sample_row(const Texture& texture, int count, const doub
   }
   // No number that was joined is negative.
   if (outside >= 0) {
-    if (mix_inside(texture.pixels, width, count, first.data(), part_x.data(), part_y.data(), out)) return;
+    if (mix_inside(texture.pixels, width, count, first.data(), part_x.data(), part_y.data(), ahead, out)) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       out[i] = Taps::mix_inside(texture.pixels + first[i], width, part_x[i], part_y[i]);
     return;
@@ -121,11 +121,13 @@ void invert_baseline(const RowInverse& row, int count, double* u, double* v) {
 void evaluate_baseline(const BilinearForm& form, int count, const double* u, const double* v, double* x, double* y) {
   evaluate_row(form, count, u, v, x, y);
 }
-void bilinear_baseline(const Texture& texture, int count, const double* x, const double* y, Rgba* out) {
-  sample_row<BilinearTaps>(texture, count, x, y, out, mix_bilinear_baseline);
+void bilinear_baseline(const Texture& texture, int count, const double* x, const double* y, std::ptrdiff_t ahead,
+                       Rgba* out) {
+  sample_row<BilinearTaps>(texture, count, x, y, ahead, out, mix_bilinear_baseline);
 }
-void bicubic_baseline(const Texture& texture, int count, const double* x, const double* y, Rgba* out) {
-  sample_row<BicubicTaps>(texture, count, x, y, out, mix_bicubic_baseline);
+void bicubic_baseline(const Texture& texture, int count, const double* x, const double* y, std::ptrdiff_t ahead,
+                      Rgba* out) {
+  sample_row<BicubicTaps>(texture, count, x, y, ahead, out, mix_bicubic_baseline);
 }
 
 #ifdef OVERSKETCH_AVX2
@@ -139,11 +141,13 @@ OVERSKETCH_AVX2 void evaluate_avx2(const BilinearForm& form, int count, const do
                                    double* y) {
   evaluate_row(form, count, u, v, x, y);
 }
-OVERSKETCH_AVX2 void bilinear_avx2(const Texture& texture, int count, const double* x, const double* y, Rgba* out) {
-  sample_row<BilinearTaps>(texture, count, x, y, out, mix_bilinear_avx2);
+OVERSKETCH_AVX2 void bilinear_avx2(const Texture& texture, int count, const double* x, const double* y,
+                                   std::ptrdiff_t ahead, Rgba* out) {
+  sample_row<BilinearTaps>(texture, count, x, y, ahead, out, mix_bilinear_avx2);
 }
-OVERSKETCH_AVX2 void bicubic_avx2(const Texture& texture, int count, const double* x, const double* y, Rgba* out) {
-  sample_row<BicubicTaps>(texture, count, x, y, out, mix_bicubic_avx2);
+OVERSKETCH_AVX2 void bicubic_avx2(const Texture& texture, int count, const double* x, const double* y,
+                                  std::ptrdiff_t ahead, Rgba* out) {
+  sample_row<BicubicTaps>(texture, count, x, y, ahead, out, mix_bicubic_avx2);
 }
 #endif
 

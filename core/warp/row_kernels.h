@@ -71,9 +71,11 @@ struct RowKernels {
   void (*map_gently)(const GentleRow& row, int count, double* x, double* y);
   void (*invert)(const RowInverse& row, int count, double* u, double* v);
   void (*evaluate)(const BilinearForm& form, int count, const double* u, const double* v, double* x, double* y);
-  void (*bilinear)(const Texture& texture, int count, const double* x, const double* y, Rgba* out);
+  /// `ahead`: see MixInside.
+  void (*bilinear)(const Texture& texture, int count, const double* x, const double* y, std::ptrdiff_t ahead,
+                   Rgba* out);
   /// Catmull–Rom over 4 × 4 pixels.
-  void (*bicubic)(const Texture& texture, int count, const double* x, const double* y, Rgba* out);
+  void (*bicubic)(const Texture& texture, int count, const double* x, const double* y, std::ptrdiff_t ahead, Rgba* out);
 };
 
 RowKernels row_kernels(Simd simd);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 
 namespace oversketch {
@@ -17,6 +18,12 @@ constexpr int kOneBits = std::bit_cast<int>(1.0F);
 
 Lanes load(const Rgba& pixel) {
   return std::bit_cast<Lanes>(pixel);
+}
+
+/// Need not be a pixel's address.
+void ask_for(const Rgba* pixel, std::ptrdiff_t ahead) {
+  const auto at = reinterpret_cast<std::uintptr_t>(pixel) + static_cast<std::uintptr_t>(ahead) * sizeof(Rgba);
+  __builtin_prefetch(reinterpret_cast<const void*>(at));
 }
 
 /// Catmull–Rom: the weights of four taps, t beyond the second.
@@ -37,10 +44,11 @@ struct Alphas {
 } // namespace
 
 bool mix_bilinear_baseline(const Rgba* pixels, int width, int count, const int* first, const float* tx, const float* ty,
-                           Rgba* out) {
+                           std::ptrdiff_t ahead, Rgba* out) {
   Alphas alphas;
   for (int i = 0; i < count; ++i) {
     const Rgba *upper = pixels + first[i], *lower = upper + width;
+    if ((i & 1) == 0) ask_for(upper, ahead);
     const Lanes a = load(upper[0]), b = load(upper[1]), c = load(lower[0]), d = load(lower[1]);
     for (const Lanes pixel : {a, b, c, d})
       alphas.add(pixel);
@@ -52,11 +60,12 @@ bool mix_bilinear_baseline(const Rgba* pixels, int width, int count, const int* 
 }
 
 bool mix_bicubic_baseline(const Rgba* pixels, int width, int count, const int* first, const float* tx, const float* ty,
-                          Rgba* out) {
+                          std::ptrdiff_t ahead, Rgba* out) {
   Alphas alphas;
   for (int i = 0; i < count; ++i) {
     const Lanes wx = cubic_weights(tx[i]), wy = cubic_weights(ty[i]);
     std::array<Lanes, 4> columns;
+    if ((i & 1) == 0) ask_for(pixels + first[i], ahead);
     for (int k = 0; k < 4; ++k) {
       const Rgba* tap = pixels + first[i] + k;
       Lanes& sum = columns[static_cast<std::size_t>(k)];
@@ -84,11 +93,12 @@ using WideBits = int __attribute__((vector_size(32)));
 } // namespace
 
 [[gnu::target("avx2")]] bool mix_bilinear_avx2(const Rgba* pixels, int width, int count, const int* first,
-                                               const float* tx, const float* ty, Rgba* out) {
+                                               const float* tx, const float* ty, std::ptrdiff_t ahead, Rgba* out) {
   const Rgba* const below = pixels + width;
   WideBits all = {-1, -1, -1, -1, -1, -1, -1, -1};
   int i = 0;
   for (; i + 1 < count; i += 2) {
+    ask_for(pixels + first[i], ahead);
     // Left and right taps together: neighbours in memory.
     Wide upper, lower, next_upper, next_lower;
     std::memcpy(&upper, pixels + first[i], sizeof upper);
@@ -105,11 +115,11 @@ using WideBits = int __attribute__((vector_size(32)));
     std::memcpy(static_cast<void*>(out + i), &mixed, sizeof mixed);
   }
   const bool opaque = all[3] == kOneBits && all[7] == kOneBits;
-  return opaque && (i == count || mix_bilinear_baseline(pixels, width, 1, first + i, tx + i, ty + i, out + i));
+  return opaque && (i == count || mix_bilinear_baseline(pixels, width, 1, first + i, tx + i, ty + i, ahead, out + i));
 }
 
 [[gnu::target("avx2")]] bool mix_bicubic_avx2(const Rgba* pixels, int width, int count, const int* first,
-                                              const float* tx, const float* ty, Rgba* out) {
+                                              const float* tx, const float* ty, std::ptrdiff_t ahead, Rgba* out) {
   constexpr Lanes kA = {-0.5F, 1.5F, -1.5F, 0.5F}, kB = {1, -2.5F, 2, -0.5F}, kC = {-0.5F, 0, 0.5F, 0},
                   kD = {0, 1, 0, 0};
   WideBits all = {-1, -1, -1, -1, -1, -1, -1, -1};
@@ -117,6 +127,7 @@ using WideBits = int __attribute__((vector_size(32)));
     const Lanes wx = ((kA * tx[i] + kB) * tx[i] + kC) * tx[i] + kD, wy = ((kA * ty[i] + kB) * ty[i] + kC) * ty[i] + kD;
     Wide left = {}, right = {};
     const Rgba* row = pixels + first[i];
+    if ((i & 1) == 0) ask_for(row, ahead);
     for (int j = 0; j < 4; ++j, row += width) {
       Wide a, b;
       std::memcpy(&a, row, sizeof a);
@@ -205,7 +216,7 @@ Rgba BilinearTaps::mix(const Texture& texture, int x, int y, float tx, float ty)
 Rgba BilinearTaps::mix_inside(const Rgba* first, int width, float tx, float ty) {
   const int at = 0;
   Rgba out;
-  if (mix_bilinear_baseline(first, width, 1, &at, &tx, &ty, &out)) return out;
+  if (mix_bilinear_baseline(first, width, 1, &at, &tx, &ty, 0, &out)) return out;
   if (tx == 0 && ty == 0) return first[0];
   WeightedSum sum;
   sum.add(first[0], (1 - tx) * (1 - ty));
@@ -223,7 +234,7 @@ Rgba BicubicTaps::mix(const Texture& texture, int x, int y, float tx, float ty) 
 Rgba BicubicTaps::mix_inside(const Rgba* first, int width, float tx, float ty) {
   const int at = 0;
   Rgba out;
-  if (mix_bicubic_baseline(first, width, 1, &at, &tx, &ty, &out)) return out;
+  if (mix_bicubic_baseline(first, width, 1, &at, &tx, &ty, 0, &out)) return out;
   if (tx == 0 && ty == 0) return first[width + 1];
   const Lanes wx = cubic_weights(tx), wy = cubic_weights(ty);
   WeightedSum sum;

@@ -7,10 +7,11 @@
 namespace oversketch {
 
 /// Mixes `count` points whose taps all lie in the picture: `first` is the index of the upper left tap, tx and ty are
-/// how far the points lie beyond the pixel centre before them, 0 ≤ t < 1.
+/// how far the points lie beyond the pixel centre before them, 0 ≤ t < 1.  What lies `ahead` pixels after the taps is
+/// asked for early: rows of points seldom follow the picture's rows, so that the processor does not foresee them.
 /// @returns false when not all taps are opaque; what is in `out` is then worth nothing.
 using MixInside = bool(const Rgba* pixels, int width, int count, const int* first, const float* tx, const float* ty,
-                       Rgba* out);
+                       std::ptrdiff_t ahead, Rgba* out);
 
 extern MixInside mix_bilinear_baseline, mix_bicubic_baseline;
 #if defined(__x86_64__)

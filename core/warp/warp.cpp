@@ -149,7 +149,7 @@ private:
 
 Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
                                  const Mask& mask, const Watch& watch, const Mask* source_region,
-                                 const WarpOptions& options) {
+                                 const WarpOptions& options, Raster<Rgba> spare) {
   const StageTimer timer(watch.times, "warp");
   check_mesh(mesh, deformed);
   const Result<Rect> rect = region_rect(source.image(), mask);
@@ -160,7 +160,7 @@ Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mes
   const RegionPainter painter(source, mesh, deformed, options);
   const CellRaster raster(mesh, deformed, painter.inverses(), *rect, source_region);
   const Mask wanted = grown(mask);
-  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Unset{})};
+  WarpedRegion out{*rect, Raster<Rgba>(rect->width, rect->height, Unset{}, std::move(spare))};
   BandedWarp warp(painter, raster, wanted, out);
   run_parallel(warp.count(), options.threads, [&](int band) {
     if (!watch.stopped()) warp.draw(band);

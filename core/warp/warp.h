@@ -50,18 +50,20 @@ struct WarpOptions {
 /// @param mask           pixels wanted.
 /// @param source_region  the region in the source, or null: settles overlaps of a mesh whose parts come near each
 /// other, where one part's margin would hide another part's inside.
+/// @param spare          a raster that is not needed any more: the result is drawn into its memory where it fits.
 /// @returns rect = mask.bounds() grown by 1; the mask's pixels and their eight neighbours are drawn, all others are
 ///   {0, 0, 0, 0}.
 /// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than kMaxWarpPixels in the rect); warp.not-finite
 /// and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell (no cell covers
 ///   any pixel of the rect); cancelled.
-/// @cost on one busy core at 16-px quads, ns a pixel: bilinear 8 with AVX2 and 11 without, bicubic 13 and 19, shrunk to
-/// a third 45; 12, 16, 15, 21 and 45 where source and region do not fit the second cache.  A source with alpha
-/// throughout: bilinear 26 to 30, bicubic 95.  16 bytes a pixel of the rect, and 12 bytes a row of each cell.
+/// @cost on one busy core at 16-px quads, into the memory of `spare` (without it 2 to 4 ns more), ns a pixel: bilinear
+/// 8 with AVX2 and 11 without, bicubic 13 and 19, shrunk to a third 45; 10, 14, 14, 19 and 45 where source and region
+/// do not fit the second cache.  A source with alpha throughout: bilinear 26 to 30, bicubic 95.  16 bytes a pixel of
+/// the rect, and 12 bytes a row of each cell.
 /// @threads safe: reads its arguments, keeps nothing.
 Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mesh, const Points& deformed,
                                  const Mask& mask, const Watch& watch = {}, const Mask* source_region = nullptr,
-                                 const WarpOptions& options = {});
+                                 const WarpOptions& options = {}, Raster<Rgba> spare = {});
 
 /// The picture as it stands under a mask, with the same rect as warp_region's: edge pixels repeated outside.
 /// @errors warp.empty-mask, warp.empty-source, warp.too-large.

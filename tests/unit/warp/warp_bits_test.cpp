@@ -25,12 +25,12 @@ Points bent(const QuadMesh& mesh) {
   return out;
 }
 
-WarpedRegion drawn(const ImagePyramid& source, const WarpOptions& options) {
+WarpedRegion drawn(const ImagePyramid& source, const WarpOptions& options, Raster<Rgba> spare = {}) {
   const QuadMesh mesh = grid_mesh({-10, -10}, 11, 20, 20);
-  const Result<WarpedRegion> out =
-      warp_region(source, mesh, bent(mesh), rect_mask({5, 3, 130, 185}), {}, nullptr, options);
+  Result<WarpedRegion> out =
+      warp_region(source, mesh, bent(mesh), rect_mask({5, 3, 130, 185}), {}, nullptr, options, std::move(spare));
   EXPECT_TRUE(out.ok());
-  return out.ok() ? *out : WarpedRegion{};
+  return out.ok() ? std::move(*out) : WarpedRegion{};
 }
 
 TEST(WarpBits, InstructionsAndThreadsChangeNone) {
@@ -46,6 +46,18 @@ TEST(WarpBits, InstructionsAndThreadsChangeNone) {
       }
     }
     EXPECT_NE(drawn(image, {Sampling::kBicubic}).pixels, drawn(image, {}).pixels);
+  }
+}
+
+TEST(WarpBits, NothingIsLeftOfWhatTheMemoryHeld) {
+  const Image image = noise_image(200, 190, 5, 0.0F);
+  const WarpedRegion fresh = drawn(image, {});
+  for (const int height : {1, 150, 187, 300, 1000}) {
+    Raster<Rgba> spare(132, height, Rgba{9, 9, 9, 9});
+    const Rgba* const memory = &spare.at(0, 0);
+    const WarpedRegion again = drawn(image, {}, std::move(spare));
+    EXPECT_EQ(again.pixels, fresh.pixels) << height;
+    EXPECT_EQ(&again.pixels.at(0, 0) == memory, height == 187 || height == 300) << height;
   }
 }
 
