@@ -1,6 +1,7 @@
 // The membrane and the live painting: set-up, a move, memory, and how far from the exact solution.
 
 #include "app/cli/bench_cases.h"
+#include "app/cli/bench_floor.h"
 #include "app/cli/bench_shapes.h"
 
 #include "core/clone/live.h"
@@ -56,19 +57,13 @@ Result<Scene> make_scene(const Mask& mask) {
   return Scene{std::move(*system), std::move(*region), std::move(below), std::move(out)};
 }
 
-/// What a move cannot go without: source and picture read, picture written.  As fast as it can be: what it is held
-/// against is optimized, too.
-#if defined(__GNUC__) && !defined(__clang__)
-[[gnu::optimize("O3")]]
-#endif
-void mix_pixels(Scene& scene) {
+/// The floor of a move.
+void mix_runs(Scene& scene) {
   const LivePixel* g = scene.region.data().pixels.data();
   for (const Mask::Run& run : scene.system.mask().runs()) {
-    const Rgba8* below = &scene.below.at(run.x0, run.y);
-    Rgba8* out = &scene.out.at(run.x0, run.y);
-    const auto mix = [](std::int16_t a, std::uint8_t b) { return static_cast<std::uint8_t>((a >> 7) + (b >> 1)); };
-    for (int i = 0; i < run.x1 - run.x0; ++i, ++g)
-      out[i] = {mix(g->r, below[i].r), mix(g->g, below[i].g), mix(g->b, below[i].b), mix(g->a, below[i].a)};
+    const int count = run.x1 - run.x0;
+    mix_pixels(g, &scene.below.at(run.x0, run.y), count, &scene.out.at(run.x0, run.y));
+    g += count;
   }
 }
 
@@ -149,7 +144,7 @@ Result<void> run_membrane(const std::string& name, const Mask& mask, bool has_re
   if (!scene) return scene.error();
   const PixelGraph& graph = scene->system.graph();
   const auto floor = [&] {
-    mix_pixels(*scene);
+    mix_runs(*scene);
     return Result<void>();
   };
   for (const CloneQuality quality : kQualities) {
