@@ -112,7 +112,7 @@ SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {
   // Of bounds, for errors of 1.5 and 0.1: see MultigridSolve::Outcome.
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
     way.tolerance_levels = 2.2, way.least = 2, way.most = 6;
-  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.16, way.least = 3, way.most = 20;
+  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.14, way.least = 3, way.most = 20;
   return way;
 }
 

