@@ -75,8 +75,8 @@ RingValues ring_values(const Raster<Rgba8>& below, const Data& region, Place at,
   };
   for (std::size_t i = 0; i < graph.ring.size(); ++i) {
     // Nearly every one lies in another row, and so in memory that was not read lately.
-    constexpr std::size_t kAhead = 24;
-    if (i + kAhead < graph.ring.size()) __builtin_prefetch(&below_edge(i + kAhead));
+    constexpr std::size_t kFetchAhead = 24;
+    if (i + kFetchAhead < graph.ring.size()) __builtin_prefetch(&below_edge(i + kFetchAhead));
     const Float4 d = difference(region.ring[i], below_edge(i), options);
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = i == 0 ? d[k] : std::min(low[k], d[k]);

@@ -25,7 +25,7 @@ std::vector<Data::RingPlace> list_places(const PixelGraph& graph) {
   return places;
 }
 
-Rgba unpack(const LivePixel& p) {
+Rgba color_of(const LivePixel& p) {
   const auto value = [](std::int16_t v) { return static_cast<float>(v - 32) / LivePixel::kOpaque; };
   return {value(p.r), value(p.g), value(p.b), value(p.a)};
 }
@@ -63,7 +63,7 @@ public:
         stretch,
         [&](const LivePixel* from, int x, int count) {
           for (int i = 0; i < count; ++i)
-            both(unpack(from[i]), x + i);
+            both(color_of(from[i]), x + i);
         },
         both);
   }

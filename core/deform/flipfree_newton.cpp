@@ -9,7 +9,7 @@ namespace {
 
 /// Weight of a handle's distance along the curve beside that across it: over random bends 0.02 leaves 1 % more distance
 /// from the truth, 0.05 little less but more distortion and more steps.
-constexpr double kAlong = 0.04;
+constexpr double kAlongWeight = 0.04;
 /// Longest slide at a time, cells.
 constexpr double kLongestSlide = 0.7;
 constexpr int kSlides = 3;
@@ -74,7 +74,7 @@ private:
   std::pair<double, double> handle_weights(std::size_t i) const {
     const double across = stage_.follow * problem_.handles[i].span;
     if (problem_.handles[i].pinned) return {stage_.pin_factor * across, stage_.pin_factor * across};
-    return {across, kAlong * across + problem_.handles[i].span * problem_.holds[i]};
+    return {across, kAlongWeight * across + problem_.handles[i].span * problem_.holds[i]};
   }
 
   double value(const Points& x, const HandlePlaces& places) const {

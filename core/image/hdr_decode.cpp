@@ -11,9 +11,9 @@ namespace oversketch {
 
 namespace {
 
-constexpr std::string_view kFormat = "HDR";
+constexpr std::string_view kHdr = "HDR";
 
-struct Header {
+struct HdrHeader {
   std::int64_t width = 0;
   std::int64_t height = 0;
   std::size_t pixels_at = 0;
@@ -36,34 +36,34 @@ std::optional<Axis> take_axis(std::string_view& text) {
 }
 
 /// The lines up to an empty one are read by stb_image; the one behind it holds the size, the slow axis first.
-Result<Header> read_header(std::string_view text, std::int64_t most_pixels) {
+Result<HdrHeader> read_header(std::string_view text, std::int64_t most_pixels) {
   const std::size_t empty = text.find("\n\n");
   const std::size_t end = empty == std::string_view::npos ? empty : text.find('\n', empty + 2);
-  if (end == std::string_view::npos) return image_truncated(kFormat);
+  if (end == std::string_view::npos) return image_truncated(kHdr);
   std::string_view line = text.substr(empty + 2, end - empty - 2);
   const auto slow = take_axis(line), fast = take_axis(line);
   if (!slow || !fast || !line.empty() || slow->name[1] == fast->name[1])
-    return image_damaged(kFormat, "its size line cannot be read");
-  if (const auto size = check_size(fast->length, slow->length, kFormat, most_pixels); !size) return size.error();
+    return image_damaged(kHdr, "its size line cannot be read");
+  if (const auto size = check_size(fast->length, slow->length, kHdr, most_pixels); !size) return size.error();
   if (slow->name != "-Y " || fast->name != "+X ")
-    return image_unsupported(kFormat, "pixels in another order than rows from the top");
-  return Header{fast->length, slow->length, end + 1};
+    return image_unsupported(kHdr, "pixels in another order than rows from the top");
+  return HdrHeader{fast->length, slow->length, end + 1};
 }
 
 /// Whether the pixels can be as many as the header says, before memory is taken for them.
-Result<void> check_pixels(const Header& h, std::span<const std::byte> pixels) {
+Result<void> check_pixels(const HdrHeader& h, std::span<const std::byte> pixels) {
   const auto width = static_cast<std::uint64_t>(h.width), height = static_cast<std::uint64_t>(h.height);
   const auto byte = [&](std::size_t i) { return i < pixels.size() ? std::to_integer<int>(pixels[i]) : -1; };
   const bool planes = width >= 8 && width < 32768 && byte(0) == 2 && byte(1) == 2 && byte(2) < 128;
   if (planes) {
     // A run is two bytes for 127 values at most, and there are four of each pixel.
-    if (pixels.size() < height * (4 + 4 * 2 * ((width + 126) / 127))) return image_truncated(kFormat);
+    if (pixels.size() < height * (4 + 4 * 2 * ((width + 126) / 127))) return image_truncated(kHdr);
     return {};
   }
   for (std::size_t i = 0; i + 3 < std::min<std::uint64_t>(pixels.size(), width * height * 4); i += 4)
     if (byte(i) == 1 && byte(i + 1) == 1 && byte(i + 2) == 1)
-      return image_unsupported(kFormat, "run-length coding as Radiance wrote it before 1991");
-  if (pixels.size() < width * height * 4) return image_truncated(kFormat);
+      return image_unsupported(kHdr, "run-length coding as Radiance wrote it before 1991");
+  if (pixels.size() < width * height * 4) return image_truncated(kHdr);
   return {};
 }
 
@@ -94,7 +94,7 @@ Result<Decoded> decode_hdr(std::span<const std::byte> file, std::int64_t most_pi
   const auto header = read_header({reinterpret_cast<const char*>(file.data()), file.size()}, most_pixels);
   if (!header) return header.error();
   if (const auto pixels = check_pixels(*header, file.subspan(header->pixels_at)); !pixels) return pixels.error();
-  Result<Decoded> decoded = load_with_stb(file, {kFormat, header->width, header->height, 3, Samples::kFloat});
+  Result<Decoded> decoded = load_with_stb(file, {kHdr, header->width, header->height, 3, Samples::kFloat});
   if (!decoded) return decoded;
   const Encoder encode;
   for (int y = 0; y < decoded->height; ++y) {

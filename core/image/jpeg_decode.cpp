@@ -13,7 +13,7 @@ namespace oversketch {
 
 namespace {
 
-constexpr std::string_view kFormat = "JPEG";
+constexpr std::string_view kJpeg = "JPEG";
 /// More passes over the picture than any encoder makes (a full progressive script has about 10): a few bytes a pass
 /// could otherwise keep the decoder busy for minutes.
 constexpr int kMostScans = 100;
@@ -90,7 +90,7 @@ bool read_pixels(Job& job, unsigned char* pixels, std::size_t row_bytes) {
 }
 
 Error to_error(const Job& job) {
-  if (job.too_many_scans) return image_unsupported(kFormat, "more than " + std::to_string(kMostScans) + " scans");
+  if (job.too_many_scans) return image_unsupported(kJpeg, "more than " + std::to_string(kMostScans) + " scans");
   std::array<char, JMSG_LENGTH_MAX> message{};
   job.errors.format_message(reinterpret_cast<j_common_ptr>(const_cast<jpeg_decompress_struct*>(&job.info)),
                             message.data());
@@ -98,18 +98,18 @@ Error to_error(const Job& job) {
   case JWRN_JPEG_EOF:
   case JERR_INPUT_EMPTY:
   case JERR_INPUT_EOF:
-    return image_truncated(kFormat);
+    return image_truncated(kJpeg);
   case JERR_OUT_OF_MEMORY:
-    return image_too_large(kFormat, "there is not enough memory");
+    return image_too_large(kJpeg, "there is not enough memory");
   case JERR_IMAGE_TOO_BIG:
-    return image_too_large(kFormat, message.data());
+    return image_too_large(kJpeg, message.data());
   case JERR_BAD_PRECISION:
   case JERR_SOF_UNSUPPORTED:
   case JERR_ARITH_NOTIMPL:
   case JERR_CONVERSION_NOTIMPL:
-    return image_unsupported(kFormat, std::string("a rare kind of coding (") + message.data() + ")");
+    return image_unsupported(kJpeg, std::string("a rare kind of coding (") + message.data() + ")");
   default:
-    return image_damaged(kFormat, message.data());
+    return image_damaged(kJpeg, message.data());
   }
 }
 
@@ -142,12 +142,12 @@ Result<Decoded> decode_jpeg(std::span<const std::byte> file, std::int64_t most_p
   const std::unique_ptr<Job, decltype(close)> job(new Job{}, close);
   start(*job, file);
   if (!job->info.src || !read_header(*job)) return to_error(*job);
-  if (const auto size = check_size(job->info.image_width, job->info.image_height, kFormat, most_pixels); !size)
+  if (const auto size = check_size(job->info.image_width, job->info.image_height, kJpeg, most_pixels); !size)
     return size.error();
   const int orientation = read_orientation(*job);
   const int components = job->info.num_components;
   if (components != 1 && components != 3 && components != 4)
-    return image_unsupported(kFormat, std::to_string(components) + " colour channels");
+    return image_unsupported(kJpeg, std::to_string(components) + " colour channels");
   job->info.out_color_space = components == 1 ? JCS_GRAYSCALE : components == 3 ? JCS_RGB : JCS_CMYK;
   Decoded decoded = make_decoded(static_cast<int>(job->info.image_width), static_cast<int>(job->info.image_height),
                                  components, Samples::kU8);

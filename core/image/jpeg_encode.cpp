@@ -17,7 +17,7 @@ namespace oversketch {
 
 namespace {
 
-struct Job {
+struct EncodeJob {
   jpeg_compress_struct info;
   jpeg_error_mgr errors;
   std::jmp_buf failed;
@@ -25,16 +25,16 @@ struct Job {
   unsigned long size;
 };
 
-[[noreturn]] void fail(j_common_ptr info) {
-  std::longjmp(static_cast<Job*>(info->client_data)->failed, 1);
+[[noreturn]] void fail_encoding(j_common_ptr info) {
+  std::longjmp(static_cast<EncodeJob*>(info->client_data)->failed, 1);
 }
 
-void ignore_message(j_common_ptr) {}
+void ignore_warning(j_common_ptr) {}
 
-bool start(Job& job, JDIMENSION width, JDIMENSION height, int quality) {
+bool start(EncodeJob& job, JDIMENSION width, JDIMENSION height, int quality) {
   job.info.err = jpeg_std_error(&job.errors);
-  job.errors.error_exit = fail;
-  job.errors.output_message = ignore_message;
+  job.errors.error_exit = fail_encoding;
+  job.errors.output_message = ignore_warning;
   job.info.client_data = &job;
   if (setjmp(job.failed)) return false;
   jpeg_create_compress(&job.info);
@@ -52,20 +52,20 @@ bool start(Job& job, JDIMENSION width, JDIMENSION height, int quality) {
   return true;
 }
 
-bool write_row(Job& job, unsigned char* row) {
+bool write_row(EncodeJob& job, unsigned char* row) {
   if (setjmp(job.failed)) return false;
   JSAMPROW rows[1] = {row};
   jpeg_write_scanlines(&job.info, rows, 1);
   return true;
 }
 
-bool finish(Job& job) {
+bool finish(EncodeJob& job) {
   if (setjmp(job.failed)) return false;
   jpeg_finish_compress(&job.info);
   return true;
 }
 
-bool encode(Job& job, const Image& image, int quality) {
+bool encode(EncodeJob& job, const Image& image, int quality) {
   if (!start(job, static_cast<JDIMENSION>(image.width()), static_cast<JDIMENSION>(image.height()), quality))
     return false;
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(image.width()) * 4);
@@ -86,12 +86,12 @@ Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
   if (image.width() > JPEG_MAX_DIMENSION || image.height() > JPEG_MAX_DIMENSION)
     return Error{"image.too-large",
                  "A JPEG has at most " + std::to_string(JPEG_MAX_DIMENSION) + " pixels a side: save it as a PNG.", ""};
-  const auto close = [](Job* job) {
+  const auto close = [](EncodeJob* job) {
     jpeg_destroy_compress(&job->info);
     std::free(job->bytes);
     delete job;
   };
-  const std::unique_ptr<Job, decltype(close)> job(new Job{}, close);
+  const std::unique_ptr<EncodeJob, decltype(close)> job(new EncodeJob{}, close);
   if (!encode(*job, image, quality)) {
     std::array<char, JMSG_LENGTH_MAX> message{};
     job->errors.format_message(reinterpret_cast<j_common_ptr>(&job->info), message.data());

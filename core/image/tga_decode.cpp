@@ -7,7 +7,7 @@ namespace oversketch {
 
 namespace {
 
-constexpr std::string_view kFormat = "TGA";
+constexpr std::string_view kTga = "TGA";
 constexpr std::size_t kHeaderBytes = 18;
 
 struct Header {
@@ -67,7 +67,7 @@ Result<void> check_colors(const Header& h, std::span<const std::byte> pixels) {
   for (std::size_t i = 0; h.kind == 1 && i < pixels.size(); i += size) {
     const unsigned high = size == 2 ? std::to_integer<unsigned>(pixels[i + 1]) : 0;
     if ((high << 8 | std::to_integer<unsigned>(pixels[i])) >= h.map_count)
-      return image_damaged(kFormat, "a pixel names a colour that the colour map does not have");
+      return image_damaged(kTga, "a pixel names a colour that the colour map does not have");
   }
   return {};
 }
@@ -79,8 +79,8 @@ Result<void> check_packets(const Header& h, ByteReader& reader) {
     const unsigned packet = reader.u8();
     const std::size_t count = (packet & 127) + 1;
     const auto content = reader.take((packet & 128) != 0 ? size : count * size);
-    if (reader.past_end()) return image_truncated(kFormat);
-    if (count > left) return image_damaged(kFormat, "a run of pixels goes past the picture's end");
+    if (reader.past_end()) return image_truncated(kTga);
+    if (count > left) return image_damaged(kTga, "a run of pixels goes past the picture's end");
     if (const auto colors = check_colors(h, content); !colors) return colors.error();
     left -= count;
   }
@@ -91,10 +91,10 @@ Result<void> check_pixels(const Header& h, std::span<const std::byte> file) {
   ByteReader reader(file, kHeaderBytes);
   reader.skip(h.id_bytes);
   reader.skip(h.map_bytes());
-  if (reader.past_end()) return image_truncated(kFormat);
+  if (reader.past_end()) return image_truncated(kTga);
   if (h.packed) return check_packets(h, reader);
   const auto pixels = reader.take(h.pixel_count() * h.pixel_bytes());
-  if (reader.past_end()) return image_truncated(kFormat);
+  if (reader.past_end()) return image_truncated(kTga);
   return check_colors(h, pixels);
 }
 
@@ -120,12 +120,12 @@ bool looks_like_tga(std::span<const std::byte> file) {
 
 Result<Decoded> decode_tga(std::span<const std::byte> file, std::int64_t most_pixels) {
   const Header h = read_header(file);
-  if (const auto size = check_size(h.width, h.height, kFormat, most_pixels); !size) return size.error();
-  if (h.map_kind == 1 && h.kind != 1) return image_unsupported(kFormat, "a colour map beside pixels with colours");
+  if (const auto size = check_size(h.width, h.height, kTga, most_pixels); !size) return size.error();
+  if (h.map_kind == 1 && h.kind != 1) return image_unsupported(kTga, "a colour map beside pixels with colours");
   // stb_image counts the entries that are left out as bytes.
-  if (h.map_first != 0) return image_unsupported(kFormat, "a part of a colour map");
+  if (h.map_first != 0) return image_unsupported(kTga, "a part of a colour map");
   if (const auto pixels = check_pixels(h, file); !pixels) return pixels.error();
-  Result<Decoded> decoded = load_with_stb(file, {kFormat, h.width, h.height, h.channels()});
+  Result<Decoded> decoded = load_with_stb(file, {kTga, h.width, h.height, h.channels()});
   // stb_image sees to the rows' order, not to that of the pixels in a row.
   if (decoded && h.from_right) decoded->orientation = 2;
   return decoded;

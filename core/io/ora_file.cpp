@@ -10,7 +10,6 @@
 namespace oversketch {
 namespace {
 
-constexpr const char* kMerged = "mergedimage.png";
 constexpr std::string_view kMimeType = "image/openraster";
 
 std::string_view text_of(const std::vector<std::byte>& bytes) {
@@ -147,8 +146,8 @@ Result<Image> OraFile::load_layer(std::size_t index) const {
 }
 
 Result<Image> OraFile::load_picture(const Watch& watch) const {
-  if (data_->archive.has(kMerged))
-    return load_part_picture(data_->archive, kMerged, data_->archive.limits().memory_bytes);
+  if (data_->archive.has(kMergedPart))
+    return load_part_picture(data_->archive, kMergedPart, data_->archive.limits().memory_bytes);
   auto canvas = data_->composite(data_->stack.layers, 0, 0, 0, watch);
   if (!canvas) return canvas.error();
   return Image(std::move(*canvas));

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBackground = "data/background.png";
-constexpr const char* kMerged = "mergedimage.png";
 
 std::vector<std::byte> bytes_of(std::string_view text) {
   const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
@@ -126,7 +125,7 @@ private:
 Result<std::vector<ArchivePart>> make_parts(const ProjectContents& contents, const SaveOptions& options,
                                             const Watch& watch) {
   Encoder encoder;
-  encoder.add_png(kMerged, contents.merged, PngAlpha::kWhereNeeded);
+  encoder.add_png(kMergedPart, contents.merged, PngAlpha::kWhereNeeded);
   encoder.add_png(kBackground, contents.background, PngAlpha::kWhereNeeded);
   std::map<Hash, StoredPicture> pictures = pictures_of(contents.saved);
   const Hash background = contents.background.content_hash();

@@ -12,6 +12,9 @@
 
 namespace oversketch {
 
+/// The part of an OpenRaster file that holds the whole picture.
+inline constexpr const char* kMergedPart = "mergedimage.png";
+
 /// A picture, or a group of such; its place is that of its top left corner in the whole picture.
 struct StackNode {
   std::string name;

@@ -30,8 +30,8 @@ ClosedCurve oriented(const ClosedCurve& outline) {
   return ClosedCurve(Points(outline.points().rbegin(), outline.points().rend()));
 }
 
-/// How far outside the unit square.
-double overshoot(const CellPoint& at) {
+/// How far outside the unit square; inside negative.
+double signed_overshoot(const CellPoint& at) {
   return std::max({-at.u, at.u - 1, -at.v, at.v - 1});
 }
 
@@ -65,7 +65,7 @@ CellPoint RegionMesh::place_in_cell(int copy, double u, double v) const {
     const int columns = c.copies[copy].column - c.copies[neighbour].column,
               rows = c.copies[copy].row - c.copies[neighbour].row;
     const CellPoint at{data_->cell_of_copy[neighbour], u + columns, v + rows};
-    if (best.cell < 0 || overshoot(at) < overshoot(best)) best = at;
+    if (best.cell < 0 || signed_overshoot(at) < signed_overshoot(best)) best = at;
   }
   CHECK(best.cell >= 0, "a copy that was left out has a neighbour that stayed");
   return best;

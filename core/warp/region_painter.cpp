@@ -7,7 +7,7 @@
 namespace oversketch {
 namespace {
 
-constexpr int kMost = RowKernels::kMost;
+constexpr int kMostInRow = RowKernels::kMost;
 using Values = RowKernels::Values;
 
 /// r, g, b, a in one register.
@@ -79,7 +79,7 @@ void RegionPainter::paint_run(const Mask::Run& run, std::span<const CellSpan> sp
                               std::vector<Mask::Run>& uncovered) const {
   auto span = std::ranges::partition_point(spans, [&](const CellSpan& s) { return s.x1 <= run.x0; });
   for (int x = run.x0; x < run.x1;) {
-    const int begin = x, end = std::min(run.x1, x + kMost);
+    const int begin = x, end = std::min(run.x1, x + kMostInRow);
     places.shrunk = false;
     places.down = {};
     while (x < end) {
@@ -173,8 +173,8 @@ void RegionPainter::sample(int count, Places& places, Rgba* out) const {
 
 void RegionPainter::sample_shrunk(int count, Places& places, Rgba* out) const {
   int lowest = source_.top() + 1, highest = 0;
-  std::array<int, kMost> stages;
-  std::array<float, kMost> parts;
+  std::array<int, kMostInRow> stages;
+  std::array<float, kMostInRow> parts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     // Not-a-number is stage 0, too.
     const double stage = std::min(std::max(0.0, places.stage[i]), source_.top() + 1.0);
@@ -182,7 +182,7 @@ void RegionPainter::sample_shrunk(int count, Places& places, Rgba* out) const {
     parts[i] = static_cast<float>(stage - stages[i]);
     lowest = std::min(lowest, stages[i]), highest = std::max(highest, stages[i] + (parts[i] > 0 ? 1 : 0));
   }
-  std::array<Lanes, kMost> sums{}, colors;
+  std::array<Lanes, kMostInRow> sums{}, colors;
   for (int stage = lowest; stage <= highest; ++stage) {
     sample_stage(stage, count, places, colors.data());
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -197,7 +197,7 @@ void RegionPainter::sample_shrunk(int count, Places& places, Rgba* out) const {
 }
 
 void RegionPainter::sample_stage(int stage, int count, const Places& places, Lanes* out) const {
-  std::array<Rgba, kMost> colors;
+  std::array<Rgba, kMostInRow> colors;
   if (stage == 0) {
     const auto kernel = options_.sampling == Sampling::kBicubic ? kernels_.bicubic : kernels_.bilinear;
     kernel(texture_, count, places.x.data(), places.y.data(), ahead(texture_, places.down), colors.data());

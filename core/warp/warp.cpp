@@ -15,7 +15,7 @@
 namespace oversketch {
 namespace {
 
-constexpr int kNoCell = -1;
+constexpr int kNowhere = -1;
 /// Rows that one thread takes at a time.
 constexpr int kBandRows = 64;
 
@@ -112,16 +112,16 @@ private:
   Rgba& pixel(int x, int y) { return out_.pixels.at(x - out_.rect.x, y - out_.rect.y); }
 
   int cell_at(Pixel p) const {
-    if (!out_.rect.contains(p.x, p.y)) return kNoCell;
+    if (!out_.rect.contains(p.x, p.y)) return kNowhere;
     const auto row = bands_[static_cast<std::size_t>((p.y - out_.rect.y) / kBandRows)].spans.row(p.y);
     const auto span = std::ranges::partition_point(row, [&](const CellSpan& s) { return s.x1 <= p.x; });
-    return span != row.end() && span->x0 <= p.x ? span->cell : kNoCell;
+    return span != row.end() && span->x0 <= p.x ? span->cell : kNowhere;
   }
 
   Pixel nearest_covered(Pixel at) {
     // Nearly always a neighbour: cells reach beyond the outline.
     for (const auto& [dx, dy] : kSteps)
-      if (const Pixel near{at.x + dx, at.y + dy}; cell_at(near) != kNoCell) return near;
+      if (const Pixel near{at.x + dx, at.y + dy}; cell_at(near) != kNowhere) return near;
     if (nearest_.empty()) nearest_ = find_nearest_covered(covered());
     const int index = nearest_.at(at.x - out_.rect.x, at.y - out_.rect.y);
     return {out_.rect.x + index % out_.rect.width, out_.rect.y + index / out_.rect.width};

@@ -3,6 +3,8 @@
 
 #include "core/image/image_io.h"
 
+#include "tests/support/effort.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +57,8 @@ Image waves(int width, int height, double wave) {
 /// Sides of what is dragged, as a share of what frames are judged by: a part of one megapixel over a picture of twelve,
 /// with OVERSKETCH_FRAMES=1.
 double wanted_size() {
-  return std::getenv("OVERSKETCH_FRAMES") != nullptr ? 1 : 0.25;
+  if (std::getenv("OVERSKETCH_FRAMES") != nullptr) return 1;
+  return testing::kIsSanitized ? 0.1 : 0.25;
 }
 
 TEST(GuiFrameTimes, a_large_part_is_dragged_over_a_large_picture) {

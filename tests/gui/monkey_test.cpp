@@ -1,18 +1,19 @@
 // A hand that knows nothing: strokes, clicks, keys, text, wheel and window sizes in any order.  Afterwards the document
 // is valid, everything can be undone and done again, and what was recorded replays to the same document.
 //
-// OVERSKETCH_MONKEY_EVENTS is how many events each seed makes, in place of kEvents.
+// OVERSKETCH_MONKEY_EVENTS is how many events each seed makes, in place of kEvents (fewer with the sanitizers).
 #include "tests/gui/editor_under_test.h"
 
 #include "core/io/project.h"
 #include "core/io/recorder.h"
+
+#include "tests/support/effort.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 
@@ -26,8 +27,7 @@ using testing::Json;
 constexpr int kEvents = 600;
 
 int wanted_events() {
-  const char* wanted = std::getenv("OVERSKETCH_MONKEY_EVENTS");
-  return wanted != nullptr ? std::atoi(wanted) : kEvents;
+  return testing::tries(kEvents, "OVERSKETCH_MONKEY_EVENTS");
 }
 
 class Monkey {
