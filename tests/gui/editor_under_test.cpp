@@ -96,6 +96,8 @@ bool EditorUnderTest::rest() {
   marker.x = std::clamp(marker.x, 1.0, std::max(1.0, window[2].get<double>() - 2));
   marker.y = std::clamp(marker.y, 1.0, std::max(1.0, window[3].get<double>() - 2));
   marker.x += static_cast<int>(marker.x) % 2 == 0 ? 1 : -1;
+  // A hand at the edge must move, too.
+  if (marker.x == hand_->place().x) marker.x -= 1;
   hand_->move(marker);
   return wait_for("rest", [&](const Json& map) {
     return !map.at("busy") && map.at("pointer")[0] == marker.x && map.at("pointer")[1] == marker.y;

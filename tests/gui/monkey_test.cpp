@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using testing::EditorUnderTest;
 using testing::Json;
 
-constexpr int kEvents = 600;
+constexpr int kEvents = 300;
 
 int wanted_events() {
   return testing::tries(kEvents, "OVERSKETCH_MONKEY_EVENTS");
