@@ -127,4 +127,11 @@ struct Document {
   const Layer* find(LayerId id) const;
 };
 
+/// Calls visit(image) for the target's and each layer's; the same image as often as it is used.
+void for_each_image(const Document& document, const auto& visit) {
+  visit(document.target.image);
+  for (const Layer& layer : document.layers)
+    visit(layer.source.image);
+}
+
 } // namespace oversketch

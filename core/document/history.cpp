@@ -8,12 +8,6 @@
 namespace oversketch {
 namespace {
 
-void for_each_image(const Document& document, const auto& visit) {
-  visit(document.target.image);
-  for (const Layer& layer : document.layers)
-    visit(layer.source.image);
-}
-
 std::size_t bytes_of(const Image& image) {
   return image.pixels().values().size_bytes();
 }

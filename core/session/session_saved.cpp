@@ -15,12 +15,6 @@ struct Window {
   std::size_t last = 0;
 };
 
-void for_each_image(const Document& document, const auto& visit) {
-  visit(document.target.image);
-  for (const Layer& layer : document.layers)
-    visit(layer.source.image);
-}
-
 /// Grows from the present step into the past, then into the future, as far as the limits let it.
 Window choose_window(const History& history, const KeptHistory& kept) {
   const auto& entries = history.entries();

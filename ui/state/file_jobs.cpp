@@ -25,10 +25,8 @@ std::string ending_of(const fs::path& path) {
 /// What the document's pictures take, each content once.
 std::size_t picture_bytes(const Document& document) {
   std::map<Hash, std::size_t> bytes;
-  const auto count = [&](const Image& image) { bytes[image.content_hash()] = image.pixels().values().size_bytes(); };
-  if (!document.empty()) count(document.target.image);
-  for (const Layer& layer : document.layers)
-    count(layer.source.image);
+  for_each_image(document,
+                 [&](const Image& image) { bytes[image.content_hash()] = image.pixels().values().size_bytes(); });
   std::size_t sum = 0;
   for (const auto& [hash, size] : bytes)
     sum += size;

@@ -62,6 +62,7 @@ TEST_F(JournalTest, what_cannot_be_written_or_read_is_an_error) {
 }
 
 TEST_F(JournalTest, the_state_folder_is_where_the_system_wants_it) {
+  const testing::KeptVariable state("XDG_STATE_HOME"), home("HOME");
   ::setenv("XDG_STATE_HOME", "/some/state", 1);
   EXPECT_EQ(*default_state_folder(), "/some/state/oversketch");
   ::setenv("XDG_STATE_HOME", "relative", 1);
