@@ -4,6 +4,7 @@
 #include "app/cli/bench_floor.h"
 #include "app/cli/bench_shapes.h"
 
+#include "core/base/check.h"
 #include "core/clone/live.h"
 #include "core/clone/live_data.h"
 #include "core/clone/pixel_solver.h"
@@ -123,6 +124,7 @@ Result<void> measure_errors(const std::string& name, const Scene& scene, const W
   for (const CloneQuality quality : kQualities) {
     const auto membrane = scene.system.membrane(quality, watch);
     if (!membrane) return membrane.error();
+    CHECK(*membrane, "smooth shapes have membranes");
     const std::vector<Float4> near = read_all(**membrane, graph, ring);
     double worst = 0, sum = 0, noise = 0;
     for (std::size_t i = 0; i < near.size(); ++i) {
@@ -161,6 +163,7 @@ Result<void> run_membrane(const std::string& name, const Mask& mask, bool has_re
     if (auto done = record.repeat(name + ".floor", "", 4 * input.runs, floor); !done) return done;
     const auto made = scene->system.membrane(quality, input.watch);
     if (!made) return made.error();
+    CHECK(*made, "smooth shapes have membranes");
     record.add_value(name + ".bytes" + suffix(quality), "", bytes_of(graph, **made) / static_cast<double>(graph.count));
   }
   const auto least = record.summarize(name + ".floor");

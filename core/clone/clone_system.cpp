@@ -29,7 +29,7 @@ struct CloneSystem::Data {
   PixelGraph graph;
   Lazy<std::vector<float>> depths;
   /// By quality.
-  std::array<Lazy<Membrane>, 3> membranes;
+  std::array<Lazy<std::optional<Membrane>>, 3> membranes;
   std::shared_ptr<Grids> grids = std::make_shared<Grids>();
 };
 
@@ -49,7 +49,14 @@ const PixelGraph& CloneSystem::graph() const {
 Result<std::shared_ptr<const Membrane>> CloneSystem::membrane(CloneQuality quality, const Watch& watch) const {
   CHECK(quality != CloneQuality::kExport, "export is solved on every pixel");
   const auto which = static_cast<std::size_t>(quality);
-  return data_->membranes[which].get([&] { return Membrane::make(graph(), 1 << which, watch); });
+  const auto made = data_->membranes[which].get([&]() -> Result<std::optional<Membrane>> {
+    auto membrane = Membrane::make(graph(), 1 << which, watch);
+    if (membrane) return std::optional(std::move(*membrane));
+    if (membrane.error().code == "clone.no-membrane") return std::optional<Membrane>();
+    return membrane.error();
+  });
+  if (!made) return made.error();
+  return std::shared_ptr<const Membrane>(*made, (*made)->has_value() ? &***made : nullptr);
 }
 
 std::shared_ptr<const std::vector<float>> CloneSystem::depths() const {
@@ -69,13 +76,10 @@ bool CloneSystem::has_membrane(CloneQuality quality) const {
 
 Result<void> CloneSystem::prepare(const BlendOptions& options, CloneQuality quality, const Watch& watch) const {
   if (options.mode == BlendMode::kNone) return {};
-  const SolveWay way = choose_way(options, quality);
-  if (way.on_pixels)
+  const Result<SolveWay> way = choose_way(*this, options, quality, watch);
+  if (!way) return way.error();
+  if (way->on_pixels)
     if (const auto made = pixels(options.screening, 1, watch); !made) return made.error();
-  if (way.membrane)
-    if (const auto made = membrane(*way.membrane, watch);
-        !made && !(way.on_pixels && made.error().code == "clone.too-large"))
-      return made.error();
   return {};
 }
 

@@ -14,7 +14,8 @@
 namespace oversketch {
 
 /// How near to the exact solution, in 8-bit levels, worst pixel; on photographs, and for differences along the ring
-/// that are white noise over all 255 levels.  Mixed gradients are solved on every pixel in any quality.
+/// that are white noise over all 255 levels.  Mixed gradients, screening, and masks on which no membrane pays are
+/// solved on every pixel in any quality.
 enum class CloneQuality {
   kFirst,  ///< membrane with k = 1: 2 (4); ready soonest
   kDrag,   ///< membrane with k = 2: 0.7 (0.9)
@@ -38,16 +39,16 @@ public:
   const Mask& mask() const { return graph().mask; }
 
   /// Makes the parts that a blend with those options and that quality needs, so that the blend does not wait for them.
-  /// @errors clone.too-large, cancelled.
+  /// @errors those of MaskMultigrid::make; cancelled.
   Result<void> prepare(const BlendOptions& options, CloneQuality quality, const Watch& watch = {}) const;
 
   /// How far from each pixel's centre the nearest centre outside the mask is, px, by pixel number.
   std::shared_ptr<const std::vector<float>> depths() const;
-  /// Whether membrane() would find it made.
+  /// Whether membrane() would find it made, or refused.
   bool has_membrane(CloneQuality quality) const;
 
-  /// For any quality but kExport (CHECK).
-  /// @errors those of Membrane::make.
+  /// For any quality but kExport (CHECK).  None where it does not pay: see Membrane.
+  /// @errors cancelled.
   Result<std::shared_ptr<const Membrane>> membrane(CloneQuality quality, const Watch& watch = {}) const;
 
   /// A solve on every pixel: what mixed gradients, screening and export need.  Whoever holds it has it alone; let go,

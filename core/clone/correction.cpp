@@ -31,14 +31,12 @@ std::vector<Float4> ring_values(const PlacedPair& pair, const PixelGraph& graph,
   return ring;
 }
 
-Result<Correction> span_membrane(const PlacedPair& pair, const CloneSystem& system, CloneQuality quality,
-                                 const Watch& watch) {
-  const auto made = system.membrane(quality, watch);
-  if (!made) return made.error();
+Result<Correction> span_membrane(const PlacedPair& pair, const CloneSystem& system,
+                                 const std::shared_ptr<const Membrane>& membrane, const Watch& watch) {
   const StageTimer timer(watch.times, "clone.solve");
   double range = 0;
-  Correction out{*made, (*made)->solve(ring_values(pair, system.graph(), range)), nullptr, 0};
-  out.error = (*made)->error_share() * range;
+  Correction out{membrane, membrane->solve(ring_values(pair, system.graph(), range)), nullptr, 0};
+  out.error = membrane->error_share() * range;
   if (watch.stopped()) return cancelled();
   return out;
 }
@@ -103,40 +101,37 @@ void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float
       });
 }
 
-SolveWay choose_way(const BlendOptions& options, CloneQuality quality) {
-  const bool is_mixed = options.mode == BlendMode::kMixed;
-  if (!is_mixed && options.screening == 0 && quality != CloneQuality::kExport) return {quality, false, 0, 1, 1};
-  SolveWay way{std::nullopt, true, 0.03, 1, 40};
-  // A membrane is no better a start than zero for what is mixed, and far from a screened solution.
-  if (!is_mixed && options.screening == 0) way.membrane = CloneQuality::kDrag;
-  // Of bounds, for errors of 1.5 and 0.1: see MultigridSolve::Outcome.
+Result<SolveWay> choose_way(const CloneSystem& system, const BlendOptions& options, CloneQuality quality,
+                            const Watch& watch) {
+  const bool is_mixed = options.mode == BlendMode::kMixed, is_export = quality == CloneQuality::kExport;
+  SolveWay way{nullptr, true, 0.03, 1, 40};
+  // Of bounds, for errors of 1.5 and 0.1 where mixed gradients are chosen: see MultigridSolve::Outcome.
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
-    way.tolerance_levels = 2.2, way.least = 2, way.most = 6;
+    way.tolerance_levels = is_mixed || options.screening > 0 ? 2.2 : 1, way.least = 2, way.most = 6;
   if (quality == CloneQuality::kRest) way.tolerance_levels = 0.14, way.least = 3, way.most = 20;
+  // A membrane is no better a start than zero for what is mixed, and far from a screened solution.
+  if (is_mixed || options.screening > 0) return way;
+  const auto membrane = system.membrane(is_export ? CloneQuality::kDrag : quality, watch);
+  if (!membrane) return membrane.error();
+  way.membrane = *membrane;
+  way.on_pixels = is_export || !way.membrane;
   return way;
 }
 
 Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
                                     CloneQuality quality, int threads, const Watch& watch) {
-  const SolveWay way = choose_way(options, quality);
-  if (!way.on_pixels) return span_membrane(pair, system, *way.membrane, watch);
+  const Result<SolveWay> way = choose_way(system, options, quality, watch);
+  if (!way) return way.error();
+  if (!way->on_pixels) return span_membrane(pair, system, way->membrane, watch);
   double range = 0;
-  return solve_on_pixels(ring_values(pair, system.graph(), range), read_pair(pair), system, options, quality, threads,
+  return solve_on_pixels(ring_values(pair, system.graph(), range), read_pair(pair), system, options, *way, threads,
                          watch);
 }
 
 Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPixels& read, const CloneSystem& system,
-                                   const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
-  const SolveWay way = choose_way(options, quality);
+                                   const BlendOptions& options, const SolveWay& way, int threads, const Watch& watch) {
   const auto grids = system.pixels(options.screening, threads, watch);
   if (!grids) return grids.error();
-  std::shared_ptr<const Membrane> membrane;
-  if (way.membrane) {
-    const auto made = system.membrane(*way.membrane, watch);
-    // Where the edge is too long for it, zero must do for a start.
-    if (!made && made.error().code != "clone.too-large") return made.error();
-    if (made) membrane = *made;
-  }
   const StageTimer timer(watch.times, "clone.solve");
   MultigridSolve& solve = **grids;
   const PixelGraph& graph = system.graph();
@@ -145,8 +140,8 @@ Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPi
   else if (!set_mixed_side(read, graph.mask, solve))
     return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
   if (watch.stopped()) return cancelled();
-  if (membrane)
-    start_from({membrane, membrane->solve(ring), nullptr, 0}, graph.mask, solve);
+  if (way.membrane)
+    start_from({way.membrane, way.membrane->solve(ring), nullptr, 0}, graph.mask, solve);
   else
     solve.start_from_zero();
   const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);

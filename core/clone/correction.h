@@ -6,7 +6,7 @@
 #include "core/clone/mixed_rows.h"
 #include "core/clone/placed_pair.h"
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace oversketch {
@@ -27,8 +27,8 @@ struct Correction {
 
 /// By what parts of a system a blend is solved.
 struct SolveWay {
-  /// Alone, or as the start on the pixels.
-  std::optional<CloneQuality> membrane;
+  /// Alone, or as the start on the pixels; none: zero is the start.
+  std::shared_ptr<const Membrane> membrane;
   bool on_pixels = false;
   /// Of the solve on the pixels: errors left, 8-bit levels; the least cycles, the most.
   double tolerance_levels = 0;
@@ -36,18 +36,21 @@ struct SolveWay {
   int most = 1;
 };
 
+/// Makes the membrane if it must; not the grids.
 /// @param options  mode not kNone.
-SolveWay choose_way(const BlendOptions& options, CloneQuality quality);
+/// @errors cancelled.
+Result<SolveWay> choose_way(const CloneSystem& system, const BlendOptions& options, CloneQuality quality,
+                            const Watch& watch);
 
 /// @param options  those of the pair; mode not kNone.
 /// @errors those of the system's parts; clone.not-finite (without a place); cancelled.
 Result<Correction> solve_correction(const PlacedPair& pair, const CloneSystem& system, const BlendOptions& options,
                                     CloneQuality quality, int threads, const Watch& watch);
 
-/// The same where choose_way says on_pixels, for pictures of any kind.
+/// The same where the way is on_pixels, for pictures of any kind.
 /// @param ring  d at the outer pixel of each of the graph's ring edges, in the domain's values.
 /// @param read  the pair; used for mixed gradients.
 Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPixels& read, const CloneSystem& system,
-                                   const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch);
+                                   const BlendOptions& options, const SolveWay& way, int threads, const Watch& watch);
 
 } // namespace oversketch

@@ -111,21 +111,22 @@ Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const
                            const BlendOptions& options, CloneQuality quality, int threads, const Watch& watch) {
   Correction correction;
   const bool plain = is_plain(region, options);
-  const bool solves = needs_solution(options), on_pixels = solves && choose_way(options, quality).on_pixels;
-  if (solves && !on_pixels) {
-    const auto made = region.system.membrane(quality, watch);
-    if (!made) return made.error();
-    const StageTimer timer(watch.times, "clone.solve");
-    const RingValues ring = ring_values(below, region, at, options, plain ? LivePixel::kOpaque : 1.0F);
-    correction.membrane = *made;
-    correction.values = correction.membrane->solve(ring.values);
-    correction.error = correction.membrane->error_share() * ring.range;
-  } else if (solves) {
-    const RingValues ring = ring_values(below, region, at, options, 1);
-    auto solved = solve_on_pixels(ring.values, read_live(below, region, at.dx, at.dy, options), region.system, options,
-                                  quality, threads, watch);
-    if (!solved) return solved.error();
-    correction = std::move(*solved);
+  if (needs_solution(options)) {
+    const Result<SolveWay> way = choose_way(region.system, options, quality, watch);
+    if (!way) return way.error();
+    if (way->on_pixels) {
+      const std::vector<Float4> ring = ring_values(below, region, at, options, 1).values;
+      auto solved = solve_on_pixels(ring, read_live(below, region, at.dx, at.dy, options), region.system, options, *way,
+                                    threads, watch);
+      if (!solved) return solved.error();
+      correction = std::move(*solved);
+    } else {
+      const StageTimer timer(watch.times, "clone.solve");
+      const RingValues ring = ring_values(below, region, at, options, plain ? LivePixel::kOpaque : 1.0F);
+      correction.membrane = way->membrane;
+      correction.values = correction.membrane->solve(ring.values);
+      correction.error = correction.membrane->error_share() * ring.range;
+    }
   }
   if (watch.stopped()) return cancelled();
 

@@ -8,13 +8,19 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <string>
 
 namespace oversketch {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
+
+class Factor : public Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+public:
+  /// Multiplications that factorize() takes, once the pattern is analyzed.
+  double operations() const {
+    return m_nonZerosPerCol.unaryExpr([](int below) { return (below + 1.0) * (below + 1.0); }).sum();
+  }
+};
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -43,6 +49,28 @@ std::vector<int> find_ring_leaves(const PixelGraph& graph, const Quadtree& tree)
 std::int64_t estimate_bytes(const PixelGraph& graph, int k) {
   const auto unknowns = (2 + 3 * k) * static_cast<std::int64_t>(graph.ring.size());
   return PixelSolver::estimate_bytes(std::min<std::int64_t>(unknowns, graph.count));
+}
+
+/// Whether it is clear before the matrix is made that its factor would cost too much: hardly a leaf is larger than a
+/// pixel, and there are holes all over, so that the matrix does not fall apart into narrow parts either.
+bool is_crowded(const PixelGraph& graph, const Quadtree& tree) {
+  constexpr int kMany = 50'000, kUnknownsPerHole = 1000;
+  // By Euler's formula for runs and where they touch; less by one for each part of the mask but the first.
+  const std::int64_t holes =
+      static_cast<std::int64_t>(graph.stretches.size()) - static_cast<std::int64_t>(graph.mask.runs().size()) + 1;
+  return tree.unknowns > kMany && tree.unknowns > 0.6 * graph.count && holes > tree.unknowns / kUnknownsPerHole;
+}
+
+/// Whether the factor is worth some ten solves on the pixels, or is cheap.  Measured: to 1400 operations a pixel for
+/// smooth shapes, snakes, and such with some large holes; from 2500 up where small holes are everywhere, and the more
+/// the larger the mask.
+bool pays(double operations, int pixels) {
+  constexpr double kCheap = 3e7, kPerPixel = 2000;
+  return operations < std::max(kCheap, kPerPixel * pixels);
+}
+
+Error no_membrane() {
+  return {"clone.no-membrane", "The region has so long an edge that only a solve on its pixels pays.", ""};
 }
 
 } // namespace
@@ -154,20 +182,17 @@ Membrane::Membrane(std::shared_ptr<const Data> data)
 Result<Membrane> Membrane::make(const PixelGraph& graph, int k, const Watch& watch) {
   if (graph.count == 0) return Error{"clone.empty-mask", "The region covers no pixel: make it larger.", ""};
   CHECK(k == 1 || k == 2 || k == 4, "a membrane of known accuracy");
-  if (const std::int64_t needed = estimate_bytes(graph, k); needed > PixelSolver::kMostBytes)
-    return Error{"clone.too-large",
-                 "The region's edge is " + std::to_string(graph.ring.size()) +
-                     " pixels long, and blending it would take " + std::to_string(needed / 1'000'000) +
-                     " MB of memory: make it smaller or simpler.",
-                 ""};
+  if (estimate_bytes(graph, k) > PixelSolver::kMostBytes) return no_membrane();
   const Quadtree tree(graph.mask, k);
   if (watch.stopped()) return cancelled();
+  if (is_crowded(graph, tree)) return no_membrane();
   const std::vector<int> ring_leaves = find_ring_leaves(graph, tree);
   const Matrix a = membrane_matrix(tree, ring_leaves);
   if (watch.stopped()) return cancelled();
   Factor factor;
   factor.analyzePattern(a);
   if (watch.stopped()) return cancelled();
+  if (!pays(factor.operations(), graph.count)) return no_membrane();
   factor.factorize(a);
   CHECK(factor.info() == Eigen::Success, "the energy is positive definite");
   if (watch.stopped()) return cancelled();

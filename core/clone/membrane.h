@@ -28,9 +28,10 @@ struct MembraneValues {
 /// Solves Δu = 0 inside a mask for given u on the ring of pixels round it, nearly: with the functions of a Quadtree in
 /// place of all functions on the pixels, and the pixel graph's own energy (Galerkin).
 ///
-/// Cost and memory follow the mask's perimeter.  The error is that of the space: it falls with k and grows with what
-/// the given values jump along the ring, see error_share.  Constant and linear functions are exact to a float's
-/// rounding.
+/// Cost and memory follow the mask's perimeter, as long as most of the mask is far from its edge.  Where holes are
+/// everywhere no leaf is large, and a factor would cost far more than solving on every pixel: there a membrane is
+/// refused, by the mask alone.  The error is that of the space: it falls with k and grows with what the given values
+/// jump along the ring, see error_share.  Constant and linear functions are exact to a float's rounding.
 ///
 /// Copies share the factor.
 /// @threads const after making; one object may be used by several threads.
@@ -38,7 +39,8 @@ class Membrane {
 public:
   /// @param k  1, 2 or 4 (CHECK): leaves are at most as large as their distance from the edge, divided by k.
   /// @param graph  of the mask; needed here only.
-  /// @errors clone.empty-mask; clone.too-large (by the length of the edge, before anything is made); cancelled.
+  /// @errors clone.empty-mask; clone.no-membrane (it does not pay: see above; or by the length of the edge, before
+  ///   anything is made, its memory is too much); cancelled.
   /// @cost for k = 1, 2, 4 on one core 10, 19, 39 ms and 1.4, 2.7, 6 MB for a smooth shape of 2¹⁸ pixels; twice that
   /// for
   ///   four times as many.

@@ -87,7 +87,7 @@ double photograph(int x, int y) {
 
 TEST(Membrane, RefusesEmptyAndHugeMasksAndStops) {
   EXPECT_EQ(Membrane::make(PixelGraph(Mask()), 2).error().code, "clone.empty-mask");
-  EXPECT_EQ(Membrane::make(PixelGraph(rect_mask({0, 0, 1'000'000, 64})), 4).error().code, "clone.too-large");
+  EXPECT_EQ(Membrane::make(PixelGraph(rect_mask({0, 0, 1'000'000, 64})), 4).error().code, "clone.no-membrane");
   const PixelGraph square(rect_mask({0, 0, 30, 30}));
   std::stop_source stop;
   stop.request_stop();
@@ -185,6 +185,23 @@ TEST(Membrane, MovesWithItsMaskToTheBit) {
     EXPECT_EQ(span_ring(*a, here, photograph),
               span_ring(*b, there, [](int x, int y) { return photograph(x + 1003, y - 78); }));
   }
+}
+
+TEST(Membrane, IsRefusedWhereHolesAreEverywhereAndOnlyThere) {
+  const auto pixel_holes = [](int side, int every) {
+    return mask_where({3, -9, side, side}, [=](int x, int y) { return x % every != 0 || y % every != 0; });
+  };
+  // By the count of operations; before the matrix is made.
+  for (const Mask& mask : {pixel_holes(180, 5), pixel_holes(300, 9), random_mask({0, 0, 300, 300}, 0.97, 1)})
+    for (const int k : kAll)
+      EXPECT_EQ(Membrane::make(PixelGraph(mask), k).error().code, "clone.no-membrane") << mask.count() << " " << k;
+  // Large leaves between the holes; narrow though all edge; islands; small.
+  const std::vector<Mask> others = {holed_mask(400, 66, 6), snake_mask(300, 3000, 7), pixel_holes(90, 9),
+                                    mask_where({0, 0, 400, 400}, [](int x, int y) { return x % 6 < 5 && y % 7 < 5; }),
+                                    mask_where({0, 0, 400, 400}, [](int x, int y) { return y < 5 || x % 4 < 3; })};
+  for (const Mask& mask : others)
+    for (const int k : kAll)
+      EXPECT_TRUE(Membrane::make(PixelGraph(mask), k).ok()) << mask.count() << " " << k;
 }
 
 TEST(Membrane, MemoryFollowsTheEdge) {

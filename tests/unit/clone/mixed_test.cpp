@@ -263,5 +263,49 @@ TEST(CloneSystem, KeepsASolveForTheNextWhoAsks) {
   EXPECT_NE(other->get(), again->get());
 }
 
+TEST(OnPixels, MasksWithoutAMembraneAreAsNearAsAnyQualitySays) {
+  const Mask holes = mask_where({3, -9, 180, 180}, [](int x, int y) { return x % 5 != 0 || y % 5 != 0; });
+  const MixedScene noisy = noisy_scene(holes), smooth = smooth_scene(holes);
+  const ExactSolver exact(holes);
+  const Result<CloneSystem> system = CloneSystem::make(holes);
+  for (const BlendMode mode : {BlendMode::kImport, BlendMode::kMonochrome, BlendMode::kAverage})
+    for (const auto& [quality, levels] : {std::pair{CloneQuality::kFirst, 1.0},
+                                          {CloneQuality::kDrag, 1.0},
+                                          {CloneQuality::kRest, 0.1},
+                                          {CloneQuality::kExport, 0.03}}) {
+      if (quality != CloneQuality::kExport) {
+        EXPECT_FALSE(system->has_membrane(quality) && mode == BlendMode::kImport);
+        ASSERT_TRUE(system->prepare(with_mode(mode), quality).ok());
+        EXPECT_TRUE(system->has_membrane(quality)) << "known to be refused";
+        EXPECT_EQ(system->membrane(quality).value(), nullptr);
+      }
+      for (const MixedScene* scene : {&noisy, &smooth}) {
+        const Result<Correction> correction = solved(*system, *scene, with_mode(mode), quality);
+        ASSERT_TRUE(correction.ok());
+        EXPECT_TRUE(correction->pixels && !correction->membrane);
+        const double error = 255 * error_of(*correction, exact.solve(*scene, with_mode(mode)), holes);
+        EXPECT_LT(error, levels) << to_string(mode) << " " << static_cast<int>(quality);
+        EXPECT_LE(error, 255 * correction->error + 0.01);
+      }
+    }
+}
+
+TEST(OnPixels, ThousandsOfIslandsAreBlendedLikeAnyMask) {
+  // Of 1 to 9 pixels each, 3600 of them.
+  const Mask mask = mask_where({-40, 7, 240, 240}, [](int x, int y) {
+    const int u = (x + 40) % 4, v = (y - 7) % 4, island = (x + 40) / 4 + 3 * ((y - 7) / 4);
+    return u < 3 && v < 3 && v * 3 + u <= island % 9;
+  });
+  const Result<CloneSystem> system = CloneSystem::make(mask);
+  const MixedScene scene = noisy_scene(mask);
+  const ExactSolver exact(mask);
+  for (const BlendMode mode : {BlendMode::kImport, BlendMode::kMixed, BlendMode::kAverage})
+    for (const auto& [quality, levels] : {std::pair{CloneQuality::kDrag, 1.5}, {CloneQuality::kExport, 0.03}}) {
+      const Result<Correction> correction = solved(*system, scene, with_mode(mode), quality);
+      ASSERT_TRUE(correction.ok());
+      EXPECT_LT(255 * error_of(*correction, exact.solve(scene, with_mode(mode)), mask), levels) << to_string(mode);
+    }
+}
+
 } // namespace
 } // namespace oversketch
