@@ -10,7 +10,7 @@ namespace oversketch {
 enum class BlendMode {
   kImport,     ///< the source's gradients (Pérez, Gangnet, Blake 2003, eq. 9)
   kMixed,      ///< at each pair of neighbours the stronger of the two differences (eq. 12, jointly over the channels)
-  kMonochrome, ///< import of the source's luminance
+  kMonochrome, ///< import of the source's luminance; a source in colour changes even a target that equals it
   kAverage,    ///< the weighted mean of both gradients
   kNone,       ///< plain paste
 };

@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/clone/correction.h"
 #include "core/clone/paint.h"
+#include "core/clone/pixel_check.h"
 #include "core/clone/placed_pair.h"
 
 #include <string>
@@ -13,37 +14,32 @@ namespace {
 /// Of a solution on the pixels; more hardly pays beside the memory's speed.
 constexpr int kMostThreads = 2;
 
-bool is_finite(const Rgba& p) {
-  // 0 · x is not 0 for infinite x and for not-a-number.
-  return p.r * 0 + p.g * 0 + p.b * 0 + p.a * 0 == 0;
-}
-
-Error not_finite(const char* picture, int x, int y) {
-  return {"clone.not-finite", std::string("The ") + picture + " has a pixel that is not a number, or infinite.",
-          std::string(picture) + " pixel " + std::to_string(x) + ", " + std::to_string(y)};
-}
-
-Result<void> check_pixel(const PlacedPair& pair, int x, int y) {
-  if (!is_finite(pair.source_pixel(x, y))) return not_finite("source", x, y);
-  if (!is_finite(pair.target_pixel(x, y))) return not_finite("target", pair.target_x(x), pair.target_y(y));
+/// @param is_good  of a pixel: is_blendable or is_number.
+template <class IsGood>
+Result<void> check_pixel(const PlacedPair& pair, int x, int y, IsGood is_good) {
+  if (const Rgba& pixel = pair.source_pixel(x, y); !is_good(pixel)) return refuse_pixel("source", pixel, x, y);
+  if (const Rgba& pixel = pair.target_pixel(x, y); !is_good(pixel))
+    return refuse_pixel("target", pixel, pair.target_x(x), pair.target_y(y));
   return {};
 }
 
-Result<void> check_inside(const PlacedPair& pair, const Mask& mask) {
+template <class IsGood>
+Result<void> check_inside(const PlacedPair& pair, const Mask& mask, IsGood is_good) {
   for (const Mask::Run& run : mask.runs()) {
     bool good = true;
     for (int x = run.x0; x < run.x1; ++x)
-      good &= is_finite(pair.source_pixel(x, run.y)) && is_finite(pair.target_pixel(x, run.y));
+      good &= is_good(pair.source_pixel(x, run.y)) && is_good(pair.target_pixel(x, run.y));
     if (good) continue;
     for (int x = run.x0; x < run.x1; ++x)
-      if (const Result<void> one = check_pixel(pair, x, run.y); !one) return one.error();
+      if (const Result<void> one = check_pixel(pair, x, run.y, is_good); !one) return one.error();
   }
   return {};
 }
 
 Result<void> check_ring(const PlacedPair& pair, const PixelGraph& graph) {
   for (const PixelGraph::RingEdge& edge : graph.ring)
-    if (const Result<void> good = check_pixel(pair, edge.x, edge.y); !good) return good.error();
+    if (const auto good = check_pixel(pair, edge.x, edge.y, [](const Rgba& p) { return is_blendable(p); }); !good)
+      return good.error();
   return {};
 }
 
@@ -84,7 +80,8 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
   const PlacedPair pair(target, source, dx, dy, options);
   CloneReport report{mask.count(), 0, painted_rect(target.rect(), mask, dx, dy)};
   if (report.changed.empty()) return report;
-  if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
+  if (const auto good = check_inside(pair, mask, [](const Rgba& p) { return is_blendable(p); }); !good)
+    return good.error();
   if (const Result<void> good = check_ring(pair, system.graph()); !good) return good.error();
 
   Correction correction;
@@ -96,7 +93,17 @@ Result<CloneReport> clone_into(Raster<Rgba>& target, const WarpedRegion& source,
   }
   const StageTimer timer(watch.times, "clone.paint");
   const Painting painting{pair, system.graph(), options, &correction};
-  const Result<double> largest = paint(target, painting, dx, dy, watch);
+  // Where errors grow with the values, results above white ask for more than could be known before they were there.
+  const Refine refine = [&](double largest) -> Result<bool> {
+    const double slope = largest_slope(options.domain, largest);
+    if (quality != CloneQuality::kExport || !correction.pixels || slope <= largest_slope(options.domain, 1))
+      return false;
+    const double error = kExportLevels / 255 / slope;
+    if (correction.error <= error) return false;
+    if (const auto done = correction.refine(error, watch); !done) return done.error();
+    return true;
+  };
+  const Result<double> largest = paint(target, painting, dx, dy, watch, refine);
   if (!largest) return largest.error();
   report.residual_levels = 255 * correction.error * largest_slope(options.domain, *largest);
   return report;
@@ -110,7 +117,8 @@ Result<CloneReport> paste_into(Raster<Rgba>& target, const WarpedRegion& source,
   const PlacedPair pair(target, source, dx, dy, options);
   const CloneReport report{mask.count(), 0, painted_rect(target.rect(), mask, dx, dy)};
   if (report.changed.empty()) return report;
-  if (const Result<void> good = check_inside(pair, mask); !good) return good.error();
+  if (const auto good = check_inside(pair, mask, [](const Rgba& p) { return is_number(p); }); !good)
+    return good.error();
   const StageTimer timer(watch.times, "clone.paint");
   const PixelGraph graph(mask);
   const Result<double> largest = paint(target, {pair, graph, options, nullptr}, dx, dy, watch);

@@ -15,7 +15,9 @@ struct CloneReport {
   std::int64_t unknowns = 0;
   /// A bound on the error of the solution in any pixel of the result, in 8-bit levels; a result's rounding to float is
   /// not counted.  Of a membrane: Membrane::error_share() of the range of the differences on the ring; else from the
-  /// residual of the linear system.  0 where nothing was solved.
+  /// residual of the linear system.  0 where nothing was solved.  At export at most 0.03, but where float can do no
+  /// better: there, as of mixed gradients in the log domain with results ten times white, it is some ten times the
+  /// error.
   double residual_levels = 0;
   /// Box round the pixels of the target that may have changed; all zero when the region lies wholly outside.
   Rect changed;
@@ -27,7 +29,7 @@ struct CloneReport {
 /// With A, d = f* − g and u as in guidance.h, as near as `quality` says, in the values of options.domain:
 ///   import      f = g + u,  Δu = 0 in Ω, u = d on the ring of pixels round Ω (Pérez, Gangnet, Blake 2003)
 ///   mixed       f = g + u,  u from the stronger differences
-///   monochrome  import of g's luminance
+///   monochrome  import of g's luminance: a source in colour changes even a target that equals it
 ///   average     f = a (g + u) + (1 − a) f*,  a = options.average, u as in import
 ///   none        f = g
 /// u is multiplied by 1 − (1 − strength) w, w = inside_weights(options.feather_px): all of it at the edge, `strength`
@@ -41,8 +43,9 @@ struct CloneReport {
 /// @param source  must reach over mask.bounds() grown by 1 (over mask.bounds() in mode none).
 /// @param system  made from the mask Ω.
 /// @errors clone.bad-option; clone.empty-target; clone.source-too-small; clone.not-finite (a pixel of the source or the
-///   target in Ω or on its ring is not a number or infinite, or the result would be); cancelled.
-///   And the errors of the system's parts that are made for it.
+///   target in Ω or on its ring is not a number or infinite, or the result would be); clone.out-of-range (a value of
+///   such a pixel is beyond ±65504; not in mode none); cancelled. And the errors of the system's parts that are made
+///   for it.
 /// @cost one pass of right-hand side, solution and painting; 112 bytes a pixel while it runs (96 more before that in
 ///   mode mixed).
 /// @threads one call a target at a time; source and system may be shared.  Works on up to 4 threads, as the watch

@@ -1,5 +1,6 @@
 #include "core/clone/correction.h"
 
+#include "core/base/check.h"
 #include "core/clone/guidance.h"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 
 namespace oversketch {
 namespace {
+
+constexpr int kMostCycles = 40;
 
 Float4 to_float(const Channels& c) {
   return {Float4::Lanes{static_cast<float>(c.v[0]), static_cast<float>(c.v[1]), static_cast<float>(c.v[2]), 0}};
@@ -101,10 +104,20 @@ void Correction::read(std::size_t index, const Mask::Run& run, std::vector<Float
       });
 }
 
+Result<void> Correction::refine(double wanted_error, const Watch& watch) {
+  CHECK(pixels != nullptr, "what was solved on the pixels can be solved further");
+  const StageTimer timer(watch.times, "clone.solve");
+  // Two at least: how fast they go on, near float's rounding, the first cannot know.
+  const auto solved = pixels->solve(wanted_error, 2, kMostCycles, watch);
+  if (!solved) return solved.error();
+  error = solved->error;
+  return {};
+}
+
 Result<SolveWay> choose_way(const CloneSystem& system, const BlendOptions& options, CloneQuality quality,
                             const Watch& watch) {
   const bool is_mixed = options.mode == BlendMode::kMixed, is_export = quality == CloneQuality::kExport;
-  SolveWay way{nullptr, true, 0.03, 1, 40};
+  SolveWay way{nullptr, true, kExportLevels, 1, kMostCycles};
   // Of bounds, for errors of 1.5 and 0.1 where mixed gradients are chosen: see MultigridSolve::Outcome.
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
     way.tolerance_levels = is_mixed || options.screening > 0 ? 2.2 : 1, way.least = 2, way.most = 6;

@@ -15,7 +15,7 @@ namespace oversketch {
 struct Correction {
   std::shared_ptr<const Membrane> membrane;
   MembraneValues values;
-  std::shared_ptr<const MultigridSolve> pixels;
+  std::shared_ptr<MultigridSolve> pixels;
   /// A bound on the error in any pixel and channel, in the domain's values: see CloneReport::residual_levels.
   double error = 0;
 
@@ -23,7 +23,13 @@ struct Correction {
   /// u of a run of the mask from left to right, in place of what `u` holds; the fourth number means nothing.
   /// @param index  its number in the mask.
   void read(std::size_t index, const Mask::Run& run, std::vector<Float4>& u) const;
+  /// Goes on solving on the pixels (CHECK) until the error is at most that, or float can do no better.
+  /// @errors cancelled.
+  Result<void> refine(double wanted_error, const Watch& watch);
 };
+
+/// At export, 8-bit levels.
+inline constexpr double kExportLevels = 0.03;
 
 /// By what parts of a system a blend is solved.
 struct SolveWay {

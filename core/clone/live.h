@@ -21,7 +21,7 @@ class LiveRegion {
 public:
   /// @param source  must reach over the mask's bounds grown by 1.
   /// @param system  of the mask.
-  /// @errors clone.source-too-small; clone.not-finite (in the mask or on its ring).
+  /// @errors clone.source-too-small; clone.not-finite, clone.out-of-range (in the mask or on its ring).
   /// @cost 8 bytes and about 2 ns a pixel.
   static Result<LiveRegion> make(const WarpedRegion& source, const CloneSystem& system);
 

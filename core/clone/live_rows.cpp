@@ -180,18 +180,14 @@ template <class Painter>
 
 } // namespace
 
-PackedKind pack_pixels(const Rgba* from, std::size_t count, LivePixel* to) {
-  static_assert(sizeof(Rgba) == sizeof(Float4));
-  // 0 · x is 0 for a finite x and not a number otherwise.
-  Float4 zeros;
+bool pack_pixels(const Rgba* from, std::size_t count, LivePixel* to) {
   bool opaque = true;
   for (std::size_t i = 0; i < count; ++i) {
     const Float4 pixel{Float4::Lanes{from[i].r, from[i].g, from[i].b, from[i].a}};
-    zeros += 0.0F * pixel;
     PlainPainter::pack(to + i, LivePixel::kOpaque * pixel.v + 32);
     opaque &= to[i].is_opaque();
   }
-  return {zeros[0] + zeros[1] + zeros[2] + zeros[3] == 0, opaque};
+  return opaque;
 }
 
 void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows) {

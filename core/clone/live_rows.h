@@ -9,14 +9,9 @@
 
 namespace oversketch {
 
-/// What a stretch of pixels holds.
-struct PackedKind {
-  bool is_finite = true;
-  bool is_opaque = true;
-};
-
 /// Rounded to 1/64 of a level and clamped to what 16 bits hold.
-PackedKind pack_pixels(const Rgba* from, std::size_t count, LivePixel* to);
+/// @returns whether all are opaque.
+bool pack_pixels(const Rgba* from, std::size_t count, LivePixel* to);
 
 /// A run of the mask as far as it lies on the target.
 struct LiveRow {

@@ -137,28 +137,41 @@ Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy) {
   return box;
 }
 
-Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch) {
+Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch,
+                     const Refine& refine) {
   const std::vector<PaintedRun> runs = clip_runs(target, painting.graph, dx, dy);
   const int threads = watch.threads_up_to(kMostThreads);
   const auto parts = cut_rows(std::span(runs), threads, [](const PaintedRun& run) { return run.at.length(); });
   const std::vector<double> inside = fading_weights(painting);
   // Set aside first, so that a result that overflows leaves the target as it was.
   std::vector<PaintedPart> done(parts.size());
-  run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
-    const auto part = static_cast<std::size_t>(i);
-    Painter painter(painting, inside);
-    std::size_t count = 0;
-    for (const PaintedRun& run : parts[part])
-      count += static_cast<std::size_t>(run.at.length());
-    done[part].pixels.reserve(count);
-    for (const PaintedRun& run : parts[part])
-      painter.run(run, dx, dy, [&](const Rgba& pixel) { done[part].add(pixel); });
-  });
-  float largest = 0;
-  for (const PaintedPart& part : done) {
-    if (!part.is_finite) return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
-    largest = std::max(largest, part.largest);
+  const auto compute = [&]() -> Result<double> {
+    run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
+      const auto part = static_cast<std::size_t>(i);
+      Painter painter(painting, inside);
+      std::size_t count = 0;
+      for (const PaintedRun& run : parts[part])
+        count += static_cast<std::size_t>(run.at.length());
+      done[part] = {};
+      done[part].pixels.reserve(count);
+      for (const PaintedRun& run : parts[part])
+        painter.run(run, dx, dy, [&](const Rgba& pixel) { done[part].add(pixel); });
+    });
+    float largest = 0;
+    for (const PaintedPart& part : done) {
+      if (!part.is_finite)
+        return Error{"clone.not-finite", "The blended picture has values too large to be stored.", ""};
+      largest = std::max(largest, part.largest);
+    }
+    return static_cast<double>(largest);
+  };
+  Result<double> largest = compute();
+  if (largest && refine) {
+    const Result<bool> refined = refine(*largest);
+    if (!refined) return refined.error();
+    if (*refined) largest = compute();
   }
+  if (!largest) return largest.error();
   if (watch.stopped()) return cancelled();
   for (std::size_t i = 0; i < parts.size(); ++i) {
     auto from = done[i].pixels.begin();
@@ -167,7 +180,7 @@ Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int
       from += run.at.length();
     }
   }
-  return static_cast<double>(largest);
+  return largest;
 }
 
 } // namespace oversketch

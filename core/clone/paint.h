@@ -6,6 +6,8 @@
 #include "core/clone/pixel_graph.h"
 #include "core/clone/placed_pair.h"
 
+#include <functional>
+
 namespace oversketch {
 
 /// What is painted: the pair, and the correction u (null: u = 0).
@@ -34,10 +36,16 @@ TargetRun clip_run(const Rect& target, const Mask::Run& run, int first, int dx, 
 /// Box round the pixels of the target under the mask shifted by (dx, dy); all zero when there are none.
 Rect painted_rect(const Rect& target, const Mask& mask, int dx, int dy);
 
+/// Asked with the largest |red, green or blue| before anything is written: whether the correction has been bettered, so
+/// that all must be computed again.
+using Refine = std::function<Result<bool>(double largest)>;
+
 /// Writes the blended pixels (see clone_into) into the target: all of them, or none after an error.
 /// @param target  the one that the pair reads.
+/// @param refine  asked once; may be empty.
 /// @returns the largest |red, green or blue| written.
-/// @errors clone.not-finite (a result past the largest float), cancelled.
-Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch);
+/// @errors clone.not-finite (a result past the largest float), cancelled, those of `refine`.
+Result<double> paint(Raster<Rgba>& target, const Painting& painting, int dx, int dy, const Watch& watch,
+                     const Refine& refine = {});
 
 } // namespace oversketch

@@ -219,7 +219,10 @@ struct Spec<LayerSet> {
         Field{"iterations", &LayerSet::iterations, "gradient steps, method paper; 50 from the start", "", 0, 100000},
         Field{"sampling", &LayerSet::sampling,
               "how the source is read where it is deformed: bicubic is sharper; bilinear from the start"},
-        Field{"mode", &LayerSet::mode, "how the region is blended; import from the start"},
+        Field{"mode", &LayerSet::mode,
+              "how the region is blended; import from the start; monochrome takes the source's light and dark only, "
+              "and so "
+              "changes even a target that equals a source in colour"},
         Field{"strength", &LayerSet::strength, "how much of the colour correction is applied; 1 from the start", "", 0,
               1},
         Field{"domain", &LayerSet::domain, "the values that are blended; encoded from the start"},

@@ -1,6 +1,8 @@
 #include "core/clone/clone.h"
 
 #include "core/base/check.h"
+#include "core/clone/pixel_check.h"
+#include "core/image/levels.h"
 #include "tests/unit/clone/clone_calls.h"
 
 #include <gtest/gtest.h>
@@ -49,17 +51,26 @@ TEST(Clone, RefusesWhatCannotBeBlendedAndLeavesTheTargetAlone) {
   EXPECT_EQ(code(source, {}), "clone.not-finite");
   EXPECT_EQ(clone_into(target, source, 1, -2, *system).error().where, "target pixel 4, 4");
   target = original;
-  // Finite, but not when it is added up.
+  // Finite, but beyond what is added up and squared; in the mask and on its ring.
+  for (const float wrong : {70'000.0F, -70'000.0F, 3e38F})
+    for (const int at : {1, 3, 5})
+      for (const BlendMode mode : kSolved)
+        for (const Domain domain : kDomains) {
+          WarpedRegion broken = source;
+          broken.pixels.at(at, 0).g = wrong;
+          EXPECT_EQ(code(broken, with_mode(mode, domain)), "clone.out-of-range");
+          EXPECT_EQ(clone_into(target, broken, 0, 0, *system, with_mode(mode, domain)).error().where,
+                    "source pixel " + std::to_string(at + 1) + ", 1");
+          target.at(4, 4).b = wrong;
+          EXPECT_EQ(clone_into(target, source, 1, -2, *system, with_mode(mode, domain)).error().where,
+                    "target pixel 4, 4");
+          target = original;
+        }
+  // Pasted as it is it does no harm.
   WarpedRegion large = source;
-  for (Rgba& p : large.pixels.values())
-    p.r = 3e38F;
-  Raster<Rgba> dark = original;
-  for (Rgba& p : dark.values())
-    p.r = -3e38F;
-  target = dark;
   large.pixels.at(3, 3).r = -3e38F;
-  EXPECT_EQ(code(large, {}), "clone.not-finite");
-  EXPECT_EQ(target, dark);
+  EXPECT_EQ(code(large, with_mode(BlendMode::kNone)), "ok");
+  target = original;
 
   Raster<Rgba> none;
   EXPECT_EQ(clone_into(none, source, 0, 0, *system).error().code, "clone.empty-target");
@@ -273,6 +284,22 @@ TEST(Clone, PlainPasteKeepsTheSourcesBits) {
   // No source beyond the mask is needed.
   Raster<Rgba> again = target;
   EXPECT_TRUE(paste_into(again, cut_out(source.pixels, {1, 1, 12, 12}), mask, 0, 0).ok());
+}
+
+TEST(Clone, AnyPictureWithinTheRangeGivesNumbers) {
+  const Mask mask = disc_mask(20, 20, 15);
+  WarpedRegion source = noise_region(grown(mask.bounds(), 1), 1, -65504, 65504);
+  Raster<Rgba> target = noise(44, 44, 2, -65504, 65504);
+  // The ends themselves, side by side.
+  for (int i = 0; i < 30; ++i)
+    source.pixels.at(i, i).r = target.at(i, 20).r = i % 2 == 0 ? kLargestBlended : -kLargestBlended;
+  for (const BlendMode mode : kSolved)
+    for (const Domain domain : kDomains) {
+      CloneReport report;
+      const Raster<Rgba> out = cloned(target, source, mask, 1, 2, with_mode(mode, domain), &report);
+      EXPECT_TRUE(is_finite(out.values())) << to_string(mode) << " " << to_string(domain);
+      EXPECT_TRUE(std::isfinite(report.residual_levels));
+    }
 }
 
 } // namespace

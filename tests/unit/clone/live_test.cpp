@@ -94,6 +94,8 @@ TEST(Live, RefusesWhatCannotBePaintedAndLeavesThePictureAlone) {
     EXPECT_EQ(LiveRegion::make(broken, parts.system).error().code, "clone.not-finite");
     EXPECT_EQ(LiveRegion::make(broken, parts.system).error().where,
               "source pixel " + std::to_string(x) + ", " + std::to_string(y));
+    broken.pixels.at(x - source.rect.x, y - source.rect.y).g = -1e9F;
+    EXPECT_EQ(LiveRegion::make(broken, parts.system).error().code, "clone.out-of-range");
   }
   const Raster<Rgba8> below = noise_levels(40, 40, 2);
   Raster<Rgba8> out = below;
