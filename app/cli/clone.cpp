@@ -1,6 +1,7 @@
 #include "app/cli/cli.h"
 
 #include "core/clone/clone.h"
+#include "core/document/command_table.h"
 #include "core/image/image_io.h"
 #include "core/warp/warp.h"
 
@@ -61,12 +62,13 @@ Result<BlendOptions> blend_options(const CloneArguments& options) {
   if (!domain) return domain.error();
   blend.mode = *mode;
   blend.domain = *domain;
-  blend.strength = options.strength;
-  blend.feather_px = options.feather_px;
-  if (!(options.screening_px >= 0))
-    return Error{"clone.bad-option", "screening must be a number of 0 or more.", "screening"};
+  // Within the bounds of a layer's settings.
+  LayerSet settings;
+  settings.strength = blend.strength = options.strength;
+  settings.feather_px = blend.feather_px = options.feather_px;
+  settings.screening = options.screening_px;
+  if (const auto good = check_values(settings); !good) return good.error();
   blend.screening = screening_for(options.screening_px);
-  if (auto sound = check_options(blend); !sound) return sound.error();
   return blend;
 }
 
@@ -75,13 +77,20 @@ struct Inputs {
   Mask mask;
 };
 
-Result<Inputs> read_inputs(const CloneArguments& options, const Watch& watch) {
+/// @param memory_bytes  for all pictures together.
+Result<Inputs> read_inputs(const CloneArguments& options, std::size_t memory_bytes, const Watch& watch) {
   const StageTimer timer(watch.times, "read");
-  auto source = load_image(options.source);
+  auto pixels_left = static_cast<std::int64_t>(memory_bytes / sizeof(Rgba));
+  const auto load = [&](const std::string& path) {
+    auto image = load_image(path, pixels_left);
+    if (image) pixels_left -= static_cast<std::int64_t>(image->pixels().values().size());
+    return image;
+  };
+  auto source = load(options.source);
   if (!source) return source.error();
-  auto target = load_image(options.target);
+  auto target = load(options.target);
   if (!target) return target.error();
-  const auto mask = load_image(options.mask);
+  const auto mask = load(options.mask);
   if (!mask) return mask.error();
   if (mask->width() != source->width() || mask->height() != source->height())
     return Error{"clone.mask-size",
@@ -95,12 +104,12 @@ Result<Inputs> read_inputs(const CloneArguments& options, const Watch& watch) {
   return inputs;
 }
 
-Result<Json> clone(const CloneArguments& options, const Watch& watch) {
+Result<Json> clone(const CloneArguments& options, const IoLimits& limits, const Watch& watch) {
   const auto shift = parse_shift(options.at);
   if (!shift) return shift.error();
   const auto blend = blend_options(options);
   if (!blend) return blend.error();
-  const auto inputs = read_inputs(options, watch);
+  const auto inputs = read_inputs(options, limits.memory_bytes, watch);
   if (!inputs) return inputs.error();
 
   auto region = unwarped_region(inputs->source, inputs->mask);
@@ -148,11 +157,18 @@ void add_clone(Cli& cli) {
               "clone --source fish.png --target sea.jpg --mask mask.png --at 400,300 --mode mixed --out out.png");
   sub->add_option("--source", options->source, "the picture that is pasted")->required()->type_name("S");
   sub->add_option("--target", options->target, "the picture that it is pasted into")->required()->type_name("T");
-  sub->add_option("--mask", options->mask, "as large as the source; white is pasted")->required()->type_name("M");
+  sub->add_option("--mask", options->mask,
+                  "as large as the source; pasted where it is white: level 128 or more of 255, the "
+                  "mean of red, green and blue times alpha")
+      ->required()
+      ->type_name("M");
   sub->add_option("--at", options->at, "where the source's top left corner lands; may be negative or hang out")
       ->type_name("X,Y")
       ->capture_default_str();
-  sub->add_option("--mode", options->mode, "import, mixed, monochrome, average or none")
+  sub->add_option(
+         "--mode", options->mode,
+         "import, mixed, monochrome, average or none; monochrome takes the source's light and dark only, and so "
+         "changes even a target that equals a source in colour")
       ->check(CLI::IsMember({"import", "mixed", "monochrome", "average", "none"}))
       ->type_name("MODE")
       ->capture_default_str();
@@ -163,18 +179,20 @@ void add_clone(Cli& cli) {
       ->check(CLI::IsMember({"encoded", "linear", "log"}))
       ->type_name("DOMAIN")
       ->capture_default_str();
-  sub->add_option("--feather", options->feather_px, "width over which a strength below 1, or mode none, sets in")
+  sub->add_option("--feather", options->feather_px,
+                  "width over which a strength below 1, or mode none, sets in, 0 to 1000")
       ->type_name("PX")
       ->capture_default_str();
   sub->add_option("--screening", options->screening_px,
-                  "how far from the edge the colour correction dies away; 0: it does not")
+                  "how far from the edge the colour correction dies away, to 100000; 0: it does not")
       ->type_name("PX")
       ->capture_default_str();
   sub->add_option("--depth", options->depth, "bits a channel: 8, or 16 for PNG")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
   sub->add_option("--out", options->out, "PNG or JPEG, by its extension")->required()->type_name("PICTURE");
-  cli.on_run(sub, [options](const Watch& watch) { return clone(*options, watch); });
+  cli.add_memory_option(sub);
+  cli.on_run(sub, [options, &cli](const Watch& watch) { return clone(*options, cli.limits(), watch); });
 }
 
 } // namespace oversketch::cli

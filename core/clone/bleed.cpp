@@ -95,23 +95,29 @@ BleedForecast forecast_bleed(const Raster<Rgba>& target, const WarpedRegion& sou
   const int count = std::max(1, static_cast<int>(std::lround(length)));
   out.samples.reserve(static_cast<std::size_t>(count));
   const Ring ring(target, source, mask, dx, dy);
-  std::array<double, 3> sum{};
   const Walker walker{outline, signed_area(outline) >= 0 ? 1.0 : -1.0};
   walker.walk(count, length / count, [&](Point p, double s, Point outwards) {
-    BleedSample sample{p, s, ring.at(p, outwards), 0, 0};
+    BleedSample sample{p, s, ring.at(p, outwards), 0, 0, false};
     sample.norm = length_of(sample.mismatch);
-    out.largest_norm = std::max(out.largest_norm, sample.norm);
-    for (std::size_t k = 0; k < 3; ++k)
-      sum[k] += static_cast<double>(sample.mismatch[k]);
+    const Point seen{p.x + dx, p.y + dy};
+    sample.is_seen = seen.x >= 0 && seen.y >= 0 && seen.x < target.width() && seen.y < target.height();
     out.samples.push_back(sample);
   });
   if (out.samples.empty()) return out;
-  for (std::size_t k = 0; k < 3; ++k)
-    out.mean[k] = static_cast<float>(sum[k] / static_cast<double>(out.samples.size()));
   const std::size_t reach = std::min<std::size_t>(kBleedReach_px, (out.samples.size() - 1) / 2);
   if (reach > 0) find_jumps(out.samples, reach);
-  for (const BleedSample& sample : out.samples)
+  std::array<double, 3> sum{};
+  double seen = 0;
+  for (const BleedSample& sample : out.samples) {
+    if (!sample.is_seen) continue;
+    ++seen;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum[k] += static_cast<double>(sample.mismatch[k]);
+    out.largest_norm = std::max(out.largest_norm, sample.norm);
     out.largest_jump = std::max(out.largest_jump, sample.jump);
+  }
+  for (std::size_t k = 0; k < 3 && seen > 0; ++k)
+    out.mean[k] = static_cast<float>(sum[k] / seen);
   return out;
 }
 

@@ -27,6 +27,8 @@ struct BleedSample {
   float norm = 0;
   /// Length of the difference between the mean mismatch of the kBleedReach_px px before and after.
   float jump = 0;
+  /// Whether it lies in the target.  Beyond, the target's edge pixels are matched, and nobody sees what bleeds in.
+  bool is_seen = false;
 };
 
 inline constexpr int kBleedReach_px = 4;
@@ -34,7 +36,7 @@ inline constexpr int kBleedReach_px = 4;
 struct BleedForecast {
   /// About 1 px apart, in the order of the outline; all of a closed curve.
   std::vector<BleedSample> samples;
-  /// Over all samples.
+  /// Over the samples that are seen; 0 where none is.
   std::array<float, 3> mean{};
   float largest_norm = 0;
   float largest_jump = 0;

@@ -11,7 +11,7 @@ namespace {
 
 std::string say_pixels(std::int64_t count) {
   constexpr std::int64_t kMega = 1'000'000;
-  return count < kMega ? std::to_string(count) : std::to_string(count / kMega) + " megapixels";
+  return count < kMega ? std::to_string(count) + " pixels" : std::to_string(count / kMega) + " megapixels";
 }
 
 std::size_t sample_bytes(Samples samples) {

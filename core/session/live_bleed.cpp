@@ -5,7 +5,7 @@ namespace oversketch::live {
 std::shared_ptr<const BleedForecast> forecast_layer(const Image& target, const Layer& layer,
                                                     const Deformation& deformation, const DrawnLayer& drawn) {
   const LayerShape& shape = *drawn.shape;
-  if (shape.mask.empty() || deformation.boundary.size() < 3) return nullptr;
+  if (layer.settings.mode == CloneMode::kNone || shape.mask.empty() || deformation.boundary.size() < 3) return nullptr;
   auto forecast =
       std::make_shared<BleedForecast>(forecast_bleed(target.pixels(), shape.warped, shape.mask, drawn.dx, drawn.dy,
                                                      transformed(deformation.boundary, layer.placement.sub_pixel())));

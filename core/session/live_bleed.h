@@ -10,7 +10,7 @@
 namespace oversketch::live {
 
 /// Where colours will bleed into a layer, against the target alone; its samples in target pixels.  Null where nothing
-/// of the layer is drawn.
+/// of the layer is drawn, and in mode none, which matches nothing.
 /// @cost that of forecast_bleed().
 std::shared_ptr<const BleedForecast> forecast_layer(const Image& target, const Layer& layer,
                                                     const Deformation& deformation, const DrawnLayer& drawn);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <complex>
+#include <iterator>
 #include <numbers>
+#include <vector>
 
 namespace oversketch {
 namespace {
@@ -37,16 +39,18 @@ Json pins_json(const Layer& layer) {
   return pins;
 }
 
-/// Null where nothing is blended in.
+/// Null where nothing is seen that is blended in.
 Json bleed_json(const BleedForecast& forecast) {
-  if (forecast.samples.empty()) return nullptr;
+  std::vector<BleedSample> samples;
+  std::ranges::copy_if(forecast.samples, std::back_inserter(samples), &BleedSample::is_seen);
+  if (samples.empty()) return nullptr;
   double sum = 0;
-  for (const BleedSample& sample : forecast.samples)
+  for (const BleedSample& sample : samples)
     sum += static_cast<double>(sample.norm);
-  const auto worst = std::ranges::max_element(forecast.samples, {}, &BleedSample::norm);
-  const auto steepest = std::ranges::max_element(forecast.samples, {}, &BleedSample::jump);
+  const auto worst = std::ranges::max_element(samples, {}, &BleedSample::norm);
+  const auto steepest = std::ranges::max_element(samples, {}, &BleedSample::jump);
   Json json;
-  json["mean"] = sum / static_cast<double>(forecast.samples.size());
+  json["mean"] = sum / static_cast<double>(samples.size());
   json["shift"] = forecast.mean;
   json["worst"] = worst->norm;
   json["worst_at"] = write_value(worst->at);
@@ -101,11 +105,15 @@ Result<Json> make_report(Session& session, const Watch& watch) {
     json["pins"] = pins_json(layer);
     json["placement"] = placement_json(layer.placement);
     json["metrics"] = nullptr;
+    json["pixels"] = 0;
     json["bleed"] = nullptr;
     if (!layer.outline.empty()) {
       const auto metrics = session.metrics(layer.id, watch);
       if (!metrics) return metrics.error();
       json["metrics"] = metrics_json(*metrics);
+      const auto pixels = session.painted_pixels(layer.id, watch);
+      if (!pixels) return pixels.error();
+      json["pixels"] = *pixels;
       const auto bleed = session.bleed(layer.id, watch);
       if (!bleed) return bleed.error();
       json["bleed"] = bleed_json(*bleed);

@@ -63,8 +63,8 @@ template <>
 struct Spec<ReportStep> {
   static constexpr std::string_view name = "report", label = "Report";
   static constexpr std::string_view help =
-      "Writes layers, metrics, history and counters as JSON, and how well each layer's edge matches what is below it "
-      "(`bleed`).";
+      "Writes layers, metrics, history and counters as JSON, for each layer how many of the target's pixels it paints "
+      "(`pixels`), and how well its edge within the target matches what is below it (`bleed`; null in mode none).";
   static constexpr auto fields() { return std::make_tuple(Field{"path", &ReportStep::path, kOutHelp}); }
 };
 template <>

@@ -117,7 +117,8 @@ public:
   /// The same, of the target's size.
   Result<Image> layer_picture(LayerId id, const Watch& watch = {});
 
-  /// Where colours will bleed into a layer, along its boundary in target pixels; nothing where it is not drawn.
+  /// Where colours will bleed into a layer, along its boundary in target pixels; nothing where it is not drawn,
+  /// nor in mode none, which matches nothing.
   /// @errors those of composite().
   Result<BleedForecast> bleed(LayerId id, const Watch& watch = {});
 
@@ -125,6 +126,11 @@ public:
   /// @param otherwise  a layer to be taken with other settings, for comparison; may be null.
   /// @errors those of the solvers and of warp with the layer as the place, cancelled.
   Result<std::vector<DrawnLayer>> drawn_layers(const Layer* otherwise = nullptr, const Watch& watch = {});
+
+  /// Pixels of the target that a layer paints: 0 where it is not drawn, lies outside, or is so small or thin that it
+  /// covers no pixel's centre.
+  /// @errors those of the solvers and of warp with the layer as the place, cancelled.
+  Result<std::int64_t> painted_pixels(LayerId id, const Watch& watch = {});
 
 private:
   struct Caches;

@@ -158,7 +158,7 @@ Result<Image> Session::composite(const Watch& watch) {
 Result<BleedForecast> Session::bleed(LayerId id, const Watch& watch) {
   const Layer* layer = shown().find(id);
   if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
-  if (!is_drawn(*layer)) return BleedForecast{};
+  if (!is_drawn(*layer) || layer->settings.mode == CloneMode::kNone) return BleedForecast{};
   const auto below = composite_until(shown(), static_cast<std::size_t>(layer - shown().layers.data()), watch);
   if (!below) return below.error();
   const auto deformed = deformation(id, watch);
@@ -172,6 +172,19 @@ Result<BleedForecast> Session::bleed(LayerId id, const Watch& watch) {
   for (BleedSample& sample : forecast.samples)
     sample.at = sample.at + Point{dx + 0.0, dy + 0.0};
   return forecast;
+}
+
+Result<std::int64_t> Session::painted_pixels(LayerId id, const Watch& watch) {
+  const Layer* layer = shown().find(id);
+  if (layer == nullptr) return Error{"layer.unknown", "there is no layer " + to_string(id), ""};
+  if (!is_drawn(*layer)) return 0;
+  const auto shape = shape_of(*layer, solve_of(*layer), false, watch);
+  if (!shape) return shape.error();
+  const Rect target = shown().target.image.rect();
+  std::int64_t count = 0;
+  for (const Mask::Run& run : (*shape)->mask.runs())
+    count += intersect({run.x0 + layer->placement.dx, run.y + layer->placement.dy, run.x1 - run.x0, 1}, target).width;
+  return count;
 }
 
 Result<WarpedRegion> Session::layer_pixels(LayerId id, const Watch& watch) {

@@ -133,7 +133,12 @@ TEST_F(CommandLine, refuses_bad_input_and_writes_nothing) {
   refused(clone + "--mask mask.png --at 1.5,2", "clone.at");
   refused(clone + "--mask mask.png --at 99999999,2", "clone.at");
   refused("warp --image source.png --outline case.json --sketch case.json --out out.jpg", "image.no-alpha");
-  refused(clone + "--mask mask.png --strength 1.5", "clone.bad-option");
+  for (const char* wrong : {"--strength 1.5", "--strength nan", "--feather -1", "--feather 1001", "--screening 100001"})
+    refused(clone + "--mask mask.png " + wrong, "value.range");
+  ASSERT_TRUE(save_image(wavy_image(250, 250, 1), folder / "wide.png").ok());
+  const Outcome large = run("clone --source wide.png --target wide.png --mask wide.png --out out.png --memory 1");
+  EXPECT_EQ(large.code, 1) << "of both pictures together";
+  EXPECT_NE(large.text.find("at most 3036 pixels are opened"), std::string::npos) << large.text;
   refused("clone --source source.png --target target.png --mask mask.png --out out.gif", "image.unknown-extension");
 }
 

@@ -100,6 +100,25 @@ TEST(Bleed, ReadsTheRingAndNotTheMask) {
     EXPECT_NEAR(sample.mismatch[0], 30, 1e-3) << sample.s;
 }
 
+TEST(Bleed, SumsUpWhatLiesInTheTargetOnly) {
+  Scene scene;
+  // Bright along the left edge, which is what the target is taken to be beyond it.
+  for (int y = 0; y < 90; ++y)
+    scene.target.at(0, y) = {1, 1, 1, 1};
+  const BleedForecast forecast = scene.at(-30, 0);
+  ASSERT_EQ(forecast.samples.size(), 140u);
+  for (const BleedSample& sample : forecast.samples)
+    EXPECT_EQ(sample.is_seen, sample.at.x >= 30) << sample.at.x;
+  EXPECT_GT(forecast.samples[5].norm, 200 * std::sqrt(3.0));
+  // Of the bright column itself two samples are seen, of the upper and the lower side.
+  EXPECT_LT(forecast.mean[0], 45);
+  const BleedForecast outside = scene.at(-300, 0);
+  EXPECT_EQ(outside.samples.size(), 140u);
+  EXPECT_EQ(outside.largest_norm, 0);
+  EXPECT_EQ(outside.largest_jump, 0);
+  EXPECT_EQ(outside.mean, (std::array<float, 3>{}));
+}
+
 TEST(Bleed, OfRoundAndHangingOutShapesIsFinite) {
   Points circle;
   for (int i = 0; i < 300; ++i)

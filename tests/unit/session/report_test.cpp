@@ -58,14 +58,56 @@ TEST(Report, forecasts_where_a_layers_colours_bleed) {
 TEST(Report, forecasts_on_what_is_below_the_layer_where_it_stands) {
   Session session = over_an_edge();
   LayerMove move;
+  move.by = {-60, 0};
+  ASSERT_TRUE(session.execute(move).ok());
+  // There the target is as dark as the layer.
+  EXPECT_NEAR(bleed_of(session)["worst"], 0, 0.1);
   move.by = {-300, 0};
   ASSERT_TRUE(session.execute(move).ok());
-  // The target's left edge goes on beyond it, and is as dark as the layer.
-  EXPECT_NEAR(bleed_of(session)["worst"], 0, 0.1);
+  EXPECT_TRUE(bleed_of(session).is_null());
+  move.by = {360, 0};
+  ASSERT_TRUE(session.execute(move).ok());
+  LayerSet mode;
+  mode.mode = CloneMode::kNone;
+  ASSERT_TRUE(session.execute(mode).ok());
+  EXPECT_TRUE(bleed_of(session).is_null()) << "nothing is matched";
+  mode.mode = CloneMode::kMixed;
+  ASSERT_TRUE(session.execute(mode).ok());
+  EXPECT_FALSE(bleed_of(session).is_null());
   LayerSet hidden;
   hidden.visible = false;
   ASSERT_TRUE(session.execute(hidden).ok());
   EXPECT_TRUE(bleed_of(session).is_null());
+}
+
+TEST(Report, counts_the_pixels_that_a_layer_paints) {
+  Session session = over_an_edge();
+  const auto pixels = [&]() -> std::int64_t {
+    const auto report = make_report(session, {});
+    EXPECT_TRUE(report.ok());
+    return (*report)["layers"][0]["pixels"];
+  };
+  const std::int64_t all = pixels();
+  EXPECT_GT(all, 3000);
+  LayerMove move;
+  move.by = {-60, 0};
+  ASSERT_TRUE(session.execute(move).ok());
+  EXPECT_NEAR(static_cast<double>(pixels()), static_cast<double>(all) / 2, 100) << "half of it hangs out";
+  move.by = {-300, 0};
+  ASSERT_TRUE(session.execute(move).ok());
+  EXPECT_EQ(pixels(), 0);
+  move.by = {360, 0};
+  ASSERT_TRUE(session.execute(move).ok());
+  EXPECT_EQ(pixels(), all);
+  LayerSet hidden;
+  hidden.visible = false;
+  ASSERT_TRUE(session.execute(hidden).ok());
+  EXPECT_EQ(pixels(), 0);
+  hidden.visible = true;
+  ASSERT_TRUE(session.execute(hidden).ok());
+  // Between two rows of centres.
+  ASSERT_TRUE(session.execute(RegionSet{{}, {{20, 60.1}, {100, 60.1}, {100, 60.4}, {20, 60.4}}}).ok());
+  EXPECT_EQ(pixels(), 0);
 }
 
 } // namespace
