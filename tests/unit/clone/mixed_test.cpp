@@ -321,7 +321,7 @@ TEST(OnPixels, RatiosAreExportedAsNearAsSaidWhereResultsAreFarAboveWhite) {
       }
     }
     EXPECT_GT(largest, 4);
-    EXPECT_LE(worst, report->residual_levels);
+    EXPECT_LE(worst, report->residual_levels + 0.005) << "float's rounding is not counted";
     EXPECT_LE(worst, 0.03);
   }
 }
