@@ -71,7 +71,9 @@ std::shared_ptr<const std::vector<float>> CloneSystem::depths() const {
 }
 
 bool CloneSystem::has_membrane(CloneQuality quality) const {
-  return quality != CloneQuality::kExport && data_->membranes[static_cast<std::size_t>(quality)].is_made();
+  if (quality == CloneQuality::kExport) return false;
+  const auto made = data_->membranes[static_cast<std::size_t>(quality)].if_made();
+  return made && made->has_value();
 }
 
 Result<void> CloneSystem::prepare(const BlendOptions& options, CloneQuality quality, const Watch& watch) const {

@@ -44,7 +44,7 @@ public:
 
   /// How far from each pixel's centre the nearest centre outside the mask is, px, by pixel number.
   std::shared_ptr<const std::vector<float>> depths() const;
-  /// Whether membrane() would find it made, or refused.
+  /// Whether membrane() would find one made.  Where it does not pay it never is, and a coarser one may serve.
   bool has_membrane(CloneQuality quality) const;
 
   /// For any quality but kExport (CHECK).  None where it does not pay: see Membrane.

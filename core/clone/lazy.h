@@ -25,10 +25,10 @@ public:
     return part_;
   }
 
-  /// Whether get() would find it; waits for nobody: while it is being made it is not there.
-  bool is_made() const {
+  /// What get() would find; null while it is not there.  Waits for nobody: while it is being made it is not there.
+  std::shared_ptr<const T> if_made() const {
     const std::unique_lock lock(making_, std::try_to_lock);
-    return lock.owns_lock() && part_ != nullptr;
+    return lock.owns_lock() ? part_ : nullptr;
   }
 
 private:

@@ -51,14 +51,14 @@ std::int64_t estimate_bytes(const PixelGraph& graph, int k) {
   return PixelSolver::estimate_bytes(std::min<std::int64_t>(unknowns, graph.count));
 }
 
-/// Whether it is clear before the matrix is made that its factor would cost too much: hardly a leaf is larger than a
+/// Whether it is clear before the matrix is made that its factor would cost too much: few leaves are larger than a
 /// pixel, and there are holes all over, so that the matrix does not fall apart into narrow parts either.
 bool is_crowded(const PixelGraph& graph, const Quadtree& tree) {
   constexpr int kMany = 50'000, kUnknownsPerHole = 1000;
   // By Euler's formula for runs and where they touch; less by one for each part of the mask but the first.
   const std::int64_t holes =
       static_cast<std::int64_t>(graph.stretches.size()) - static_cast<std::int64_t>(graph.mask.runs().size()) + 1;
-  return tree.unknowns > kMany && tree.unknowns > 0.6 * graph.count && holes > tree.unknowns / kUnknownsPerHole;
+  return tree.unknowns > kMany && tree.unknowns > 0.45 * graph.count && holes > tree.unknowns / kUnknownsPerHole;
 }
 
 /// Whether the factor is worth some ten solves on the pixels, or is cheap.  Measured: to 1400 operations a pixel for

@@ -274,9 +274,8 @@ TEST(OnPixels, MasksWithoutAMembraneAreAsNearAsAnyQualitySays) {
                                           {CloneQuality::kRest, 0.1},
                                           {CloneQuality::kExport, 0.03}}) {
       if (quality != CloneQuality::kExport) {
-        EXPECT_FALSE(system->has_membrane(quality) && mode == BlendMode::kImport);
         ASSERT_TRUE(system->prepare(with_mode(mode), quality).ok());
-        EXPECT_TRUE(system->has_membrane(quality)) << "known to be refused";
+        EXPECT_FALSE(system->has_membrane(quality));
         EXPECT_EQ(system->membrane(quality).value(), nullptr);
       }
       for (const MixedScene* scene : {&noisy, &smooth}) {
@@ -324,6 +323,16 @@ TEST(OnPixels, RatiosAreExportedAsNearAsSaidWhereResultsAreFarAboveWhite) {
     EXPECT_LE(worst, report->residual_levels + 0.005) << "float's rounding is not counted";
     EXPECT_LE(worst, 0.03);
   }
+}
+
+TEST(OnPixels, WhereOnlyACoarseMembranePaysItIsThereToMoveWith) {
+  const Mask mask = mask_where({3, -9, 180, 180}, [](int x, int y) { return x % 9 != 0 || y % 9 != 0; });
+  const Result<CloneSystem> system = CloneSystem::make(mask);
+  for (const CloneQuality quality : {CloneQuality::kFirst, CloneQuality::kDrag, CloneQuality::kRest})
+    ASSERT_TRUE(system->prepare({}, quality).ok());
+  EXPECT_TRUE(system->has_membrane(CloneQuality::kFirst));
+  EXPECT_FALSE(system->has_membrane(CloneQuality::kDrag));
+  EXPECT_FALSE(system->has_membrane(CloneQuality::kRest));
 }
 
 TEST(OnPixels, ThousandsOfIslandsAreBlendedLikeAnyMask) {
