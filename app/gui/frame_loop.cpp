@@ -13,8 +13,8 @@
 namespace oversketch::gui {
 namespace {
 
-/// Dear ImGui lays out anew over some frames; hovering shows in the frame after.
-constexpr int kFramesAfterChange = 3;
+/// Dear ImGui lays out anew over some passes; hovering shows in the pass after.
+constexpr int kPassesAfterChange = 3;
 /// How often the progress of work is shown.
 constexpr double kProgress_s = 0.1;
 
@@ -74,7 +74,7 @@ float FrameLoop::scale() const {
 }
 
 double FrameLoop::wait_time() const {
-  if (frames_due_ > 0 || !window_.input().empty() || changed_) return 0;
+  if (passes_due_ > 0 || !window_.input().empty() || changed_) return 0;
   double wait = reply_.next_frame_s - Window::now_s();
   if (editor_.busy()) wait = std::min(wait, kProgress_s);
   const EditorState& state = editor_.state();
@@ -96,9 +96,9 @@ bool FrameLoop::gather() {
   const bool time_came = reply_.next_frame_s > before && reply_.next_frame_s <= Window::now_s();
   const bool asked = window_.take_redraw_request();
   if (changed_.exchange(false) || asked || !batch_.empty() || line_ended || time_came)
-    frames_due_ = std::max(frames_due_, kFramesAfterChange);
-  if (busy || reply_.field_awaits_keys) frames_due_ = std::max(frames_due_, 1);
-  return frames_due_ > 0;
+    passes_due_ = std::max(passes_due_, kPassesAfterChange);
+  if (busy || reply_.field_awaits_keys) passes_due_ = std::max(passes_due_, 1);
+  return passes_due_ > 0;
 }
 
 void FrameLoop::take_drops() {
@@ -119,7 +119,7 @@ void FrameLoop::carry_out() {
   take_drops();
   if (window_.take_close_request()) sink_.emit(action::Quit{});
   auto actions = sink_.take();
-  if (!actions.empty()) frames_due_ = kFramesAfterChange;
+  if (!actions.empty()) passes_due_ = kPassesAfterChange;
   editor_.perform_all(std::move(actions));
   std::vector<const LiveSession*> sessions;
   for (const Tab& tab : editor_.state().tabs)
@@ -137,24 +137,40 @@ std::string FrameLoop::title() const {
          " – Oversketch";
 }
 
-Result<void> FrameLoop::draw() {
+Result<void> FrameLoop::lay_out() {
   if (auto set = imgui_.set_look(editor_.state().preferences.theme, scale(), assets_); !set) return set;
-  WidgetMap widgets;
+  widgets_ = {};
   reply_ = {};
   pictures_.begin_frame();
   if (const Tab* tab = editor_.state().tab()) pictures_.update_result(*tab->session);
   times_.spent_on(FramePart::kUpload);
   imgui_.begin_frame(batch_);
-  const DrawContext context = {imgui_.look(), widgets, sink_, reply_, Window::now_s()};
+  const DrawContext context = {imgui_.look(), widgets_, sink_, reply_, Window::now_s()};
   draw_editor_window(editor_.state(), window_state_, pictures_, to_events(batch_), context);
   window_.set_cursor(reply_.cursor.value_or(imgui_.cursor()));
   window_.set_title(title());
   times_.spent_on(FramePart::kLayout);
+  batch_.clear();
+  --passes_due_;
+  return {};
+}
+
+Result<void> FrameLoop::draw() {
+  // Panels settle before anything is drawn: where there is no graphics hardware, drawing is most of the work.  What asks
+  // for more each time does not keep the frame from being seen.
+  for (int pass = 0;; ++pass) {
+    if (auto laid_out = lay_out(); !laid_out) return laid_out;
+    const bool settled = passes_due_ <= 0 && sink_.pending().empty();
+    if (settled || pass == kPassesAfterChange || pictures_.wants_frame()) break;
+    imgui_.drop_frame();
+    carry_out();
+    editor_.update(reply_.canvases, Window::now_s());
+    times_.spent_on(FramePart::kState);
+  }
   imgui_.end_frame();
   times_.spent_on(FramePart::kDraw);
-  --frames_due_;
-  if (pictures_.wants_frame()) frames_due_ = std::max(frames_due_, 1);
-  return write_map(widgets, reply_);
+  if (pictures_.wants_frame()) passes_due_ = std::max(passes_due_, 1);
+  return write_map(widgets_, reply_);
 }
 
 Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& reply) {
@@ -165,7 +181,7 @@ Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& re
                             .canvases = reply.canvases,
                             .title = title(),
                             .status = reply.status,
-                            .busy = editor_.busy() || frames_due_ > 0 || !sink_.pending().empty() ||
+                            .busy = editor_.busy() || passes_due_ > 0 || !sink_.pending().empty() ||
                                     !window_.input().empty(),
                             .wants_text = ImGui::GetIO().WantTextInput,
                             .pointer = pointer_,
@@ -184,7 +200,7 @@ Result<void> FrameLoop::take_screenshot() const {
 }
 
 Result<void> FrameLoop::settle() {
-  if (editor_.busy() || changed_ || frames_due_ > 0 || !window_.input().empty()) return {};
+  if (editor_.busy() || changed_ || passes_due_ > 0 || !window_.input().empty()) return {};
   if (options_.screenshot && !screenshot_taken_) {
     screenshot_taken_ = true;
     if (auto taken = take_screenshot(); !taken) return taken;
@@ -202,7 +218,7 @@ Result<void> FrameLoop::run() {
     times_.spent_on(FramePart::kState);
     if (draws && window_.is_hidden()) {
       // Nothing is seen; keys and clicks do not come either.
-      frames_due_ = 0;
+      passes_due_ = 0;
       batch_.clear();
     } else if (draws) {
       if (auto drawn = draw(); !drawn) return drawn;

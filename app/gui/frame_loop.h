@@ -33,6 +33,9 @@ private:
   double wait_time() const;
   /// Whether there is a reason to draw.
   bool gather();
+  /// One pass of Dear ImGui over the whole window, which takes what was gathered.
+  Result<void> lay_out();
+  /// Passes until the panels have settled, each but the last carried out; the last is drawn.
   Result<void> draw();
   Result<void> write_map(const WidgetMap& widgets, const FrameReply& reply);
   void carry_out();
@@ -56,11 +59,12 @@ private:
   FrameTimes times_;
   ActionSink sink_;
   std::vector<RawEvent> batch_;
+  WidgetMap widgets_;
   FrameReply reply_;
   Point pointer_;
   std::size_t events_ = 0;
-  /// Frames that are still to be drawn: panels settle in some.
-  int frames_due_ = 0;
+  /// Until the panels have settled.
+  int passes_due_ = 0;
   bool screenshot_taken_ = false;
   bool ended_ = false;
   std::optional<Error> first_problem_;

@@ -136,6 +136,10 @@ void ImGuiLayer::paint() const {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+void ImGuiLayer::drop_frame() {
+  ImGui::EndFrame();
+}
+
 void ImGuiLayer::end_frame() {
   ImGui::Render();
   paint();

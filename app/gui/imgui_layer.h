@@ -30,7 +30,9 @@ public:
   void begin_frame(const std::vector<RawEvent>& batch);
   /// The pointer that Dear ImGui wants.
   CursorShape cursor() const;
-  /// Puts what was drawn on the window.
+  /// Ends a frame that nobody shall see.
+  void drop_frame();
+  /// Ends a frame and puts it on the window.
   void end_frame();
   /// The pixels of the last frame, drawn once more where nobody sees it.
   Raster<Rgba8> read_last_frame() const;

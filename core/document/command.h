@@ -148,9 +148,20 @@ struct LayerSet {
 };
 
 /// One change of a Document, as plain data: undoable, printable, parsable.
-using Command = std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, LayerSelect, LayerRename, LayerOrder,
-                             RegionSet, RegionEdit, SketchSet, SketchEdit, SketchReset, PinAdd, PinMove, PinRemove,
-                             LayerMove, LayerTransform, LayerSet>;
+/// Copied, moved and ended in one place: a variant of so many kinds is dear to compile.
+class Command : public std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, LayerSelect, LayerRename, LayerOrder,
+                RegionSet, RegionEdit, SketchSet, SketchEdit, SketchReset, PinAdd, PinMove, PinRemove,
+                LayerMove, LayerTransform, LayerSet> {
+public:
+  using variant::variant;
+  Command() noexcept;
+  Command(const Command& other);
+  Command(Command&& other) noexcept;
+  Command& operator=(const Command& other);
+  Command& operator=(Command&& other) noexcept;
+  ~Command();
+};
+bool operator==(const Command& a, const Command& b);
 
 /// The document after the command.  Pure: the same in, the same out; when it fails there is nothing to roll back.
 ///

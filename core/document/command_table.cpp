@@ -11,11 +11,11 @@ namespace {
 /// Calls visit.operator()<C>() for each command C, in order.
 template <class Visit, std::size_t... i>
 void for_each_command(Visit&& visit, std::index_sequence<i...>) {
-  (visit.template operator()<std::variant_alternative_t<i, Command>>(), ...);
+  (visit.template operator()<std::variant_alternative_t<i, Command::variant>>(), ...);
 }
 template <class Visit>
 void for_each_command(Visit&& visit) {
-  for_each_command(std::forward<Visit>(visit), std::make_index_sequence<std::variant_size_v<Command>>());
+  for_each_command(std::forward<Visit>(visit), std::make_index_sequence<std::variant_size_v<Command::variant>>());
 }
 
 } // namespace
