@@ -12,18 +12,15 @@
 #include <optional>
 
 namespace oversketch {
-namespace {
-
-/// The grids of one λ, and a solve that nobody holds.
-struct Grids {
-  std::mutex making;
-  std::optional<MaskMultigrid> made;
-  std::unique_ptr<MultigridSolve> idle;
-};
-
-} // namespace
 
 struct CloneSystem::Data {
+  /// The grids of one λ, and a solve that nobody holds.
+  struct Grids {
+    std::mutex making;
+    std::optional<MaskMultigrid> made;
+    std::unique_ptr<MultigridSolve> idle;
+  };
+
   explicit Data(const Mask& mask) : graph(mask) {}
 
   PixelGraph graph;
@@ -86,7 +83,7 @@ Result<void> CloneSystem::prepare(const BlendOptions& options, CloneQuality qual
 }
 
 Result<std::shared_ptr<MultigridSolve>> CloneSystem::pixels(double screening, int threads, const Watch& watch) const {
-  const std::shared_ptr<Grids> grids = data_->grids;
+  const std::shared_ptr<Data::Grids> grids = data_->grids;
   std::unique_ptr<MultigridSolve> solve;
   {
     const std::scoped_lock lock(grids->making);

@@ -109,10 +109,10 @@ TEST_F(Dialogs, MemoryIsSetByItsSliders) {
   frame();
   drag("preferences.pictures", 0.9F, 0.3F);
   wait();
-  const auto pictures = take_all<action::SetPreferences>();
-  ASSERT_FALSE(pictures.empty());
-  EXPECT_NEAR(pictures.back().preferences.pictures_mib, 64 * std::pow(1024, 0.3), 64);
-  EXPECT_EQ(pictures.back().preferences.history_mib, Preferences().history_mib);
+  const auto first = take_all<action::SetPreferences>();
+  ASSERT_FALSE(first.empty());
+  EXPECT_NEAR(first.back().preferences.pictures_mib, 64 * std::pow(1024, 0.3), 64);
+  EXPECT_EQ(first.back().preferences.history_mib, Preferences().history_mib);
   drag("preferences.history", 0.9F, 0.3F);
   wait();
   const auto history = take_all<action::SetPreferences>();
