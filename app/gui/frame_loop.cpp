@@ -156,8 +156,8 @@ Result<void> FrameLoop::lay_out() {
 }
 
 Result<void> FrameLoop::draw() {
-  // Panels settle before anything is drawn: where there is no graphics hardware, drawing is most of the work.  What asks
-  // for more each time does not keep the frame from being seen.
+  // Panels settle before anything is drawn: where there is no graphics hardware, drawing is most of the work.  What
+  // asks for more each time does not keep the frame from being seen.
   for (int pass = 0;; ++pass) {
     if (auto laid_out = lay_out(); !laid_out) return laid_out;
     const bool settled = passes_due_ <= 0 && sink_.pending().empty();

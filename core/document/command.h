@@ -150,8 +150,8 @@ struct LayerSet {
 /// One change of a Document, as plain data: undoable, printable, parsable.
 /// Copied, moved and ended in one place: a variant of so many kinds is dear to compile.
 class Command : public std::variant<DocumentNew, TargetSet, LayerAdd, LayerRemove, LayerSelect, LayerRename, LayerOrder,
-                RegionSet, RegionEdit, SketchSet, SketchEdit, SketchReset, PinAdd, PinMove, PinRemove,
-                LayerMove, LayerTransform, LayerSet> {
+                                    RegionSet, RegionEdit, SketchSet, SketchEdit, SketchReset, PinAdd, PinMove,
+                                    PinRemove, LayerMove, LayerTransform, LayerSet> {
 public:
   using variant::variant;
   Command() noexcept;

@@ -151,14 +151,15 @@ struct Say {
 } // namespace action
 
 /// Copied, moved and ended in one place: a variant of so many kinds is dear to compile.
-class Action : public std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo,
-                action::Redo, action::Jump, action::CancelWork, action::NewDocument, action::Open,
-                action::AddSource, action::SetTarget, action::Save, action::SaveAs, action::ExportAgain,
-                action::Export, action::OpenSample, action::SelectTab, action::CloseTab, action::Quit,
-                action::Dismiss, action::Recover, action::LeaveRecovered, action::DiscardRecovered,
-                action::PickTool, action::SetOverlays, action::SetPreferences, action::SetView, action::Fit,
-                action::ZoomBy, action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore,
-                action::SelectPin, action::WantAlternatives, action::ShowWindow, action::Say> {
+class Action
+    : public std::variant<action::Execute, action::Preview, action::Commit, action::Abandon, action::Undo, action::Redo,
+                          action::Jump, action::CancelWork, action::NewDocument, action::Open, action::AddSource,
+                          action::SetTarget, action::Save, action::SaveAs, action::ExportAgain, action::Export,
+                          action::OpenSample, action::SelectTab, action::CloseTab, action::Quit, action::Dismiss,
+                          action::Recover, action::LeaveRecovered, action::DiscardRecovered, action::PickTool,
+                          action::SetOverlays, action::SetPreferences, action::SetView, action::Fit, action::ZoomBy,
+                          action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore, action::SelectPin,
+                          action::WantAlternatives, action::ShowWindow, action::Say> {
 public:
   using variant::variant;
   Action(const Action& other);

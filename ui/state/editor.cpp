@@ -145,6 +145,8 @@ void Editor::update(const CanvasRects& canvases, double now_s) {
 
 void Editor::watch_tab(Tab& tab) {
   Memory& memory = memories_[tab.id];
+  // Asked first: what was in hand then may not be in the snapshot.
+  const bool working = tab.session->activity().busy;
   const auto snapshot = tab.session->snapshot();
   if (snapshot->problem && snapshot->problem_number != memory.problem_number) say(*snapshot->problem);
   memory.problem_number = snapshot->problem_number;
@@ -155,7 +157,9 @@ void Editor::watch_tab(Tab& tab) {
   const Document& document = snapshot->document;
   const Layer* layer = document.selected ? document.find(*document.selected) : nullptr;
   auto& pin = tab.view.selected_pin;
-  if (pin && (layer == nullptr || std::ranges::find(layer->pins, *pin, &Pin::id) == layer->pins.end())) pin.reset();
+  // A pin is selected when it is asked for: it is there once the session has come to it.
+  if (pin && !working && (layer == nullptr || std::ranges::find(layer->pins, *pin, &Pin::id) == layer->pins.end()))
+    pin.reset();
   // Another picture is looked at from the beginning.
   const Hash source = layer != nullptr ? layer->source.image.content_hash() : Hash{};
   const Hash target = document.empty() ? Hash{} : document.target.image.content_hash();

@@ -375,6 +375,24 @@ TEST_F(EditorTest, a_pin_that_is_gone_is_not_selected) {
   EXPECT_FALSE(state().tab()->view.selected_pin);
 }
 
+TEST_F(EditorTest, a_pin_is_selected_as_it_is_made) {
+  does(action::OpenSample{});
+  for (const Pin& pin : std::vector<Pin>(snapshot()->document.layers[0].pins))
+    does(action::Execute{PinRemove{{}, pin.id}});
+  const auto before = snapshot();
+  const Layer& layer = before->document.layers[0];
+  const PinId made{before->document.next_pin};
+  editor_.perform_all({action::Execute{PinAdd{{}, layer.outline[0], layer.placement.to_target()(layer.sketch[0])}},
+                       action::SelectPin{made}});
+  // The session may not have come to it yet.
+  frame();
+  settle();
+  ASSERT_EQ(snapshot()->document.layers[0].pins.size(), 1U);
+  EXPECT_EQ(state().tab()->view.selected_pin, made);
+  does(action::Undo{});
+  EXPECT_FALSE(state().tab()->view.selected_pin);
+}
+
 TEST_F(EditorTest, a_recorded_session_replays_to_the_same_document) {
   EXPECT_FALSE(editor_.record_front(folder_ / "nothing.jsonl").ok());
   begin_work();
