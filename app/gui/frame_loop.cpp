@@ -145,6 +145,12 @@ Result<void> FrameLoop::lay_out() {
   if (const Tab* tab = editor_.state().tab()) pictures_.update_result(*tab->session);
   times_.spent_on(FramePart::kUpload);
   imgui_.begin_frame(batch_);
+  // The window may have been given another size meanwhile.
+  const ImVec2 now = ImGui::GetIO().DisplaySize;
+  if (const Point size{now.x, now.y}; size != size_) {
+    size_ = size;
+    passes_due_ = kPassesAfterChange;
+  }
   const DrawContext context = {imgui_.look(), widgets_, sink_, reply_, Window::now_s()};
   draw_editor_window(editor_.state(), window_state_, pictures_, to_events(batch_), context);
   window_.set_cursor(reply_.cursor.value_or(imgui_.cursor()));
@@ -176,7 +182,6 @@ Result<void> FrameLoop::draw() {
 Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& reply) {
   if (!map_) return {};
   const EditorState& state = editor_.state();
-  const WindowSize size = window_.size();
   const ShownFrame frame = {.widgets = widgets,
                             .canvases = reply.canvases,
                             .title = title(),
@@ -186,7 +191,7 @@ Result<void> FrameLoop::write_map(const WidgetMap& widgets, const FrameReply& re
                             .wants_text = ImGui::GetIO().WantTextInput,
                             .pointer = pointer_,
                             .events = events_,
-                            .window = {0, 0, static_cast<float>(size.width), static_cast<float>(size.height)}};
+                            .window = {0, 0, static_cast<float>(size_.x), static_cast<float>(size_.y)}};
   return map_->write(print_ui_map(state, frame));
 }
 

@@ -62,6 +62,8 @@ private:
   WidgetMap widgets_;
   FrameReply reply_;
   Point pointer_;
+  /// Of the window, as it was laid out last.
+  Point size_;
   std::size_t events_ = 0;
   /// Until the panels have settled.
   int passes_due_ = 0;

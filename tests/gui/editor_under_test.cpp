@@ -93,11 +93,11 @@ bool EditorUnderTest::rest() {
   // Inside the window, that is: what moves outside of it is not told.
   const Json window = map().at("window");
   Point marker = hand_->place();
-  marker.x = std::clamp(marker.x, 1.0, std::max(1.0, window[2].get<double>() - 2));
   marker.y = std::clamp(marker.y, 1.0, std::max(1.0, window[3].get<double>() - 2));
-  marker.x += static_cast<int>(marker.x) % 2 == 0 ? 1 : -1;
-  // A hand at the edge must move, too.
-  if (marker.x == hand_->place().x) marker.x -= 1;
+  const double inside = std::clamp(marker.x, 1.0, std::max(1.0, window[2].get<double>() - 2));
+  // One to the side; a hand that was at the edge, and would stand still so, moves inside.
+  const double beside = inside + (static_cast<int>(inside) % 2 == 0 ? 1 : -1);
+  marker.x = beside == hand_->place().x ? inside : beside;
   hand_->move(marker);
   return wait_for("rest", [&](const Json& map) {
     return !map.at("busy") && map.at("pointer")[0] == marker.x && map.at("pointer")[1] == marker.y;
