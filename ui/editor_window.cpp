@@ -29,7 +29,8 @@ struct Frame {
   std::shared_ptr<const Snapshot> snapshot;
   WindowState::Parts& parts;
   Pictures& pictures;
-  const InputEvents& events;
+  /// Those that are for the canvases.
+  const InputEvents& canvas_events;
   const DrawContext& context;
   RecoveryBarModel recovery;
   WindowLayout layout;
@@ -104,7 +105,8 @@ void draw_middle(Frame& frame) {
   if (empty)
     draw_area("##empty", area, 0, [&] { draw_empty_state(make_empty_state_model(frame.state), area, frame.context); });
   else
-    draw_canvases(frame.state, frame.parts.canvases, frame.pictures, frame.events, area.low, area.high, frame.context);
+    draw_canvases(frame.state, frame.parts.canvases, frame.pictures, frame.canvas_events, area.low, area.high,
+                  frame.context);
 }
 
 void draw_strip(Frame& frame) {
@@ -176,15 +178,16 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
               snapshot,
               parts,
               pictures,
-              events,
+              for_canvases,
               context,
               recovery,
               lay_out(state, parts, recovery.documents > 0, context),
               {state, snapshot.get(), parts.flags, context.sink}};
   parts.flags.narrow = frame.layout.narrow;
-  // Nor is anything undone or saved under a hand that is drawing.
+  // Nor is anything undone or saved under a hand that is drawing, or behind an open menu.
   const bool drawing = parts.canvases.input.held();
-  read_keys(events, drawing || dialog || parts.dialog_open || ImGui::GetIO().WantTextInput, frame.entries);
+  read_keys(events, drawing || dialog || parts.dialog_open || is_popup_open() || ImGui::GetIO().WantTextInput,
+            frame.entries);
 
   if (const int tab = state.tab() == nullptr ? 0 : state.tab()->id; std::exchange(parts.tab, tab) != tab) {
     parts.flags.renaming.reset();

@@ -201,7 +201,11 @@ ToolContext CanvasInput::context(const CanvasFrame& frame) const {
 
 ToolDrawing CanvasInput::draw(const CanvasFrame& frame) const {
   if (tool_in_hand() == nullptr || frame.snapshot.document.empty()) return {};
-  return tool_in_hand()->draw(context(frame));
+  ToolDrawing drawing = tool_in_hand()->draw(context(frame));
+  // What stands beside the pointer goes where the pointer goes.
+  const bool away = hold_ == Hold::kNone && (!frame.mouse_free || !frame.layout.side_at(pointer_));
+  if (away) std::erase_if(drawing.marks, [](const ToolMark& mark) { return mark.kind == ToolMark::Kind::kTurn; });
+  return drawing;
 }
 
 std::optional<CursorShape> CanvasInput::cursor(const CanvasFrame& frame, const ToolDrawing& drawing) const {

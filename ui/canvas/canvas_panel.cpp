@@ -238,7 +238,7 @@ void draw_document(const EditorState& state, const Tab& tab, CanvasesState& canv
                           size_of(layer != nullptr ? layer->source.image : document.target.image),
                           size_of(document.target.image),
                           mouse_free,
-                          !ImGui::GetIO().WantTextInput,
+                          !covered && !ImGui::GetIO().WantTextInput,
                           covered,
                           context.look.scale};
   fit_where_wanted(frame, view, context.sink);
@@ -273,7 +273,7 @@ void draw_canvases(const EditorState& state, CanvasesState& canvases, Pictures& 
   ImGui::InvisibleButton("##surface", to_imgui(area.size()),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
-  const bool covered = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const bool covered = is_popup_open();
   const bool over = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   const bool elsewhere = !ImGui::IsMouseHoveringRect(corner, to_imgui(area.high), false);
   const bool mouse_free = !covered && (over || elsewhere);

@@ -63,7 +63,7 @@ void draw_dialogs(const EditorState& state, WindowState::Parts& parts, Pictures&
   follow_system_dialog(state, parts, context);
   const bool browses = state.file_request && !uses_system(state, parts);
   if (!browses) parts.browser.close();
-  if (state.question) return draw_question_dialog(*state.question, events, context);
+  if (state.question) return draw_question_dialog(*state.question, parts.chosen_answer, events, context);
   if (browses) {
     parts.browser.update(*state.file_request, state.preferences.recent_files);
     return draw_file_browser(parts.browser, pictures, events, context);

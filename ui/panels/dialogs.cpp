@@ -49,21 +49,40 @@ bool draw_scale(Preferences& preferences, const DrawContext& context) {
   return take(change, preferences.ui_scale, context);
 }
 
+/// The answer that Enter gives: at first the preferred one; the arrows and Tab go to others.
+void choose_answer(const Question& question, std::size_t& chosen, bool appears, const InputEvents& events) {
+  const std::size_t count = question.answers.size();
+  if (appears || chosen >= count) {
+    const auto preferred = std::ranges::find(question.answers, true, &Question::Answer::preferred);
+    chosen = preferred == question.answers.end() ? 0 : static_cast<std::size_t>(preferred - question.answers.begin());
+  }
+  for (const InputEvent& event : events) {
+    if (event.kind != InputEvent::Kind::kKeyDown && event.kind != InputEvent::Kind::kKeyRepeat) continue;
+    // The first answer stands at the right.
+    const bool back = event.key == Key::kRight || (event.key == Key::kTab && event.modifiers.shift);
+    if (back)
+      chosen = (chosen + count - 1) % count;
+    else if (event.key == Key::kLeft || event.key == Key::kTab)
+      chosen = (chosen + 1) % count;
+  }
+}
+
 } // namespace
 
-void draw_question_dialog(const Question& question, const InputEvents& events, const DrawContext& context) {
+void draw_question_dialog(const Question& question, std::size_t& chosen, const InputEvents& events,
+                          const DrawContext& context) {
   const Dialog dialog(context, "dialog.question", question.title, ImVec2(440, 0));
+  choose_answer(question, chosen, dialog.appears(), events);
   draw_note(context, question.text);
   AnswerRow row(context);
   const Question::Answer* given = nullptr;
   // The first answer stands at the right, where the hand expects it.
   for (const Question::Answer& answer : question.answers)
-    if (row.draw("question." + answer.id, answer.label, {answer.label, answer.preferred ? "Enter" : ""},
-                 answer.preferred))
+    if (const bool is_chosen = &answer == &question.answers[chosen];
+        row.draw("question." + answer.id, answer.label, {answer.label, is_chosen ? "Enter" : "Tab chooses"}, is_chosen))
       given = &answer;
   if (!dialog.appears() && given == nullptr) {
-    const auto preferred = std::ranges::find(question.answers, true, &Question::Answer::preferred);
-    if (is_pressed(events, Key::kEnter) && preferred != question.answers.end()) given = &*preferred;
+    if (is_pressed(events, Key::kEnter)) given = &question.answers[chosen];
     if (is_pressed(events, Key::kEscape)) return context.sink.emit(action::Dismiss{});
   }
   if (given != nullptr) give_answer(*given, context);

@@ -11,8 +11,10 @@
 namespace oversketch {
 
 /// A question of the editor's, one button an answer: "question.save" ….  An answer is emitted as Dismiss and then its
-/// actions; Enter gives the preferred one, Esc none.
-void draw_question_dialog(const Question& question, const InputEvents& events, const DrawContext& context);
+/// actions; Enter gives the one that is chosen, at first the preferred one, Esc none; Tab and the arrows choose.
+/// @param chosen  which answer; kept between frames.
+void draw_question_dialog(const Question& question, std::size_t& chosen, const InputEvents& events,
+                          const DrawContext& context);
 
 /// What is typed about a new document.
 struct NewDocumentState {

@@ -350,7 +350,8 @@ void draw_file_browser(FileBrowser& browser, Pictures& pictures, const InputEven
   // In a low window the kinds of files give way to the files.
   const bool low = ImGui::GetIO().DisplaySize.y < look.px(400);
   const bool exports = browser.request().purpose == For::kExport;
-  const float below = (browser.saves() ? 28.0F : 0.0F) + (exports ? 28.0F : 0.0F) + (low ? 0.0F : 28.0F) + 64;
+  const float below = (browser.saves() ? 28.0F : 0.0F) + (exports ? 28.0F : 0.0F) + (low ? 0.0F : 28.0F) +
+                      (browser.replaces() || !browser.message.empty() ? 24.0F : 0.0F) + 64;
   const float height = std::max(look.px(low ? 60 : 120), ImGui::GetContentRegionAvail().y - look.px(below));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (with_places) draw_places(browser, ImVec2(places, height), context);

@@ -28,6 +28,8 @@ struct WindowState::Parts {
   HistoryPanelState history;
   FileBrowser browser;
   NewDocumentState new_document;
+  /// Of a question's answers, the one that Enter gives.
+  std::size_t chosen_answer = 0;
   std::string shortcut_search;
   /// The tab that the panels have in hand; what is being typed or dragged there ends with it.
   int tab = 0;

@@ -129,6 +129,8 @@ private:
   void quit(const action::Quit& asked);
   void advance_leaving();
   bool ask_to_replace(const std::filesystem::path& path, Action again);
+  /// Says in the middle of the window that a file was not written, and offers to write another.
+  void tell_failure(const std::string& title, const Error& error, const std::string& elsewhere, Action again);
 
   void take_inbox();
   void watch_tab(Tab& tab);

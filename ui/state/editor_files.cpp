@@ -190,6 +190,16 @@ bool Editor::ask_to_replace(const fs::path& path, Action again) {
   return true;
 }
 
+void Editor::tell_failure(const std::string& title, const Error& error, const std::string& elsewhere, Action again) {
+  // A question that is open already is not to be lost; what failed is in the status line, too.
+  if (error.code == cancelled().code || state_.question) return;
+  Question question;
+  question.title = title;
+  question.text = error.where.empty() ? error.sentence : error.where + ": " + error.sentence;
+  question.answers = {{"elsewhere", elsewhere, {std::move(again)}, true}, {"cancel", "Close", {}, false}};
+  state_.question = std::move(question);
+}
+
 void Editor::save(Tab& tab) {
   if (!tab.path.empty() && !tab.read_only) return save_to(tab, tab.path);
   state_.front = *index_of(tab.id);
@@ -228,7 +238,9 @@ void Editor::save_to(Tab& tab, const fs::path& path) {
     editor.memories_[id].saving = false;
     if (!result) {
       editor.leaving_.reset();
-      return;
+      if (const auto index = editor.index_of(id)) editor.state_.front = *index;
+      return editor.tell_failure(path.filename().string() + " is not saved", result.error(), "Save elsewhere…",
+                                 action::SaveAs{});
     }
     Tab& saved = *editor.find_tab(id);
     saved.path = path;
@@ -264,7 +276,9 @@ void Editor::export_to(const action::Export& asked) {
     return export_picture(session, file, depth, watch);
   };
   const auto then = [file, depth = asked.depth, id = tab->id](Editor& editor, const Result<void>& result) {
-    if (!result) return;
+    if (!result)
+      return editor.tell_failure(file.filename().string() + " is not exported", result.error(), "Export elsewhere…",
+                                 action::Export{{}, depth, false});
     Tab& exported = *editor.find_tab(id);
     exported.exported_to = file;
     exported.export_depth = depth;

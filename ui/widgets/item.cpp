@@ -119,6 +119,10 @@ void end_row(const DrawContext& context, const RowBox& box) {
   ImGui::SetCursorScreenPos(ImVec2(box.left, box.end.y + context.look.px(4)));
 }
 
+bool is_popup_open() {
+  return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 void close_popup_on_escape() {
   if (compat::is_key_pressed(ImGuiKey_Escape, false)) ImGui::CloseCurrentPopup();
 }

@@ -66,6 +66,9 @@ RowBox begin_row(const DrawContext& context, std::string_view label);
 /// Moves the cursor to the next row.
 void end_row(const DrawContext& context, const RowBox& box);
 
+/// Whether a menu or another popup is open.
+bool is_popup_open();
+
 /// Within an open menu or popup: Esc closes it, which Dear ImGui does only while its own navigation is on.
 void close_popup_on_escape();
 

@@ -156,6 +156,7 @@ SliderChange draw_slider(const DrawContext& context, std::string_view id, std::s
   if (memory.whole("##typing") != 0) {
     change = draw_typing(context, box, label, value, spec, memory);
     finish_item(context, id, tip);
+    if (change.kind == Kind::kSet && change.value == value) change = {};
     if (change.kind == Kind::kSet) memory.show(change.value, value, context.now_s);
     end_row(context, box);
     return change;
@@ -182,6 +183,7 @@ SliderChange draw_slider(const DrawContext& context, std::string_view id, std::s
   if (hovered && ImGui::IsMouseClicked(0)) memory.whole("##reset") = ImGui::IsMouseDoubleClicked(0) ? 1 : 0;
   if (change.kind == Kind::kAbandon) memory.forget();
   if (change.kind == Kind::kNone) change = wait_for_double_click(context, memory, spec);
+  if (change.kind == Kind::kSet && change.value == value) change = {};
   if (change.kind == Kind::kSet || change.kind == Kind::kPreview || change.kind == Kind::kCommit) {
     memory.show(change.value, value, context.now_s);
     shown = change.value;

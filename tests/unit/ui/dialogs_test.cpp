@@ -23,9 +23,10 @@ protected:
       }
   }
   void show_question() {
-    show([this](const DrawContext& context) { draw_question_dialog(question, events, context); }, true);
+    show([this](const DrawContext& context) { draw_question_dialog(question, chosen, events, context); }, true);
   }
   Question question;
+  std::size_t chosen = 0;
   Preferences preferences;
   NewDocumentState fresh;
   std::string search;
@@ -55,6 +56,18 @@ TEST_F(Dialogs, EnterGivesThePreferredAnswerAndEscapeNone) {
   const auto actions = take();
   ASSERT_EQ(actions.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<action::Dismiss>(actions[0]));
+}
+
+TEST_F(Dialogs, TabAndTheArrowsChooseAnAnswer) {
+  show_question();
+  events = {key_event(Key::kTab)};
+  frame();
+  events = {key_event(Key::kEnter)};
+  frame();
+  EXPECT_EQ(take_all<action::Quit>().size(), 1U) << "the second answer, at the left of the first";
+  events = {key_event(Key::kRight), key_event(Key::kRight), key_event(Key::kEnter)};
+  frame();
+  EXPECT_EQ(take().size(), 1U) << "once round: the last one, which does nothing";
 }
 
 TEST_F(Dialogs, TheKeyThatOpenedItDoesNotAnswerIt) {

@@ -215,6 +215,23 @@ TEST_F(EditorTest, saving_that_fails_keeps_the_work_and_its_star) {
   EXPECT_NE(code_of_problem(), "none");
   EXPECT_TRUE(snapshot()->modified);
   EXPECT_TRUE(state().tab()->path.empty());
+  // Not in a quiet line alone.
+  ASSERT_TRUE(state().question);
+  EXPECT_NE(state().question->text.find("plain"), std::string::npos) << state().question->text;
+  answer("elsewhere");
+  EXPECT_FALSE(state().question);
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().file_request->purpose, FileRequest::For::kSaveAs);
+}
+
+TEST_F(EditorTest, an_export_that_fails_is_told_and_can_go_elsewhere) {
+  begin_work();
+  folder_.write("plain", "a file, not a folder");
+  does(action::Export{folder_ / "plain/picture.png", 16});
+  ASSERT_TRUE(state().question);
+  answer("elsewhere");
+  ASSERT_TRUE(state().file_request);
+  EXPECT_EQ(state().file_request->purpose, FileRequest::For::kExport);
 }
 
 TEST_F(EditorTest, another_file_is_replaced_only_when_told_so) {

@@ -32,6 +32,11 @@ protected:
     show([this](const DrawContext& context) { draw_editor_window(state, window, pictures, events, context); }, true);
     frame();
   }
+  static bool changes_something(const std::vector<Action>& actions) {
+    return std::ranges::any_of(actions, [](const Action& a) {
+      return std::holds_alternative<action::Execute>(a) || std::holds_alternative<action::PickTool>(a);
+    });
+  }
   EditorState state;
   WindowState window;
 };
@@ -110,10 +115,25 @@ TEST_F(WholeWindow, DialogsTakeTheKeyboardAndTheMouse) {
   events = {key_event(key_of('Z'), {.ctrl = true})};
   frame();
   EXPECT_TRUE(take_all<action::Undo>().empty());
+  state.tool = Tool::kMove;
+  events = {key_event(key_of('P')), key_event(Key::kRight), key_event(Key::kRight, {}, InputEvent::Kind::kKeyUp)};
+  frame();
+  EXPECT_FALSE(changes_something(take())) << "no tool is picked, nothing nudged behind it";
   click("tool.pin");
   EXPECT_TRUE(take_all<action::PickTool>().empty()) << "it lies under the dialog";
   click("question.yes");
   take_one<action::Dismiss>();
+}
+
+TEST_F(WholeWindow, NothingIsNudgedBehindAnOpenMenu) {
+  open_document();
+  state.tool = Tool::kMove;
+  show_window();
+  click("menu.file");
+  take();
+  events = {key_event(Key::kRight), key_event(key_of('S'))};
+  frame();
+  EXPECT_FALSE(changes_something(take()));
 }
 
 TEST_F(WholeWindow, TheSidePanelsEdgeIsDragged) {

@@ -161,6 +161,18 @@ TEST_F(Slider, CtrlClickTypes) {
   EXPECT_EQ(changes[0].value, 250) << "typed numbers may go beyond the bar";
 }
 
+TEST_F(Slider, WhatItIsAlreadyIsNotSetAgain) {
+  hold_ctrl(true);
+  click("s");
+  hold_ctrl(false);
+  frame();
+  frame();
+  ASSERT_EQ(value, 40);
+  type("40");
+  press(ImGuiKey_Enter);
+  EXPECT_TRUE(kinds().empty());
+}
+
 TEST_F(Slider, TypedNumbersOutOfRangeAreRefusedInWords) {
   for (const char* text : {"5000", "many"}) {
     changes.clear();
