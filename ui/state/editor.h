@@ -124,6 +124,9 @@ private:
   void search_lost_work();
   void take_lost_work(std::vector<AbandonedJournal> found);
   void recover(std::size_t index);
+  /// Closes the tab that has the project open as it was saved, for one with newer work on it.
+  /// @returns the tab's hold on the file; none where there is no such tab, or something has been done in it.
+  std::optional<FileClaim> take_over(const std::filesystem::path& project);
   void discard_recovered(const action::DiscardRecovered& asked);
   void close(const action::CloseTab& asked);
   void quit(const action::Quit& asked);

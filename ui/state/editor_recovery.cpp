@@ -3,6 +3,8 @@
 #include "ui/state/editor_inbox.h"
 #include "ui/state/recovered_work.h"
 
+#include <utility>
+
 namespace oversketch {
 
 namespace fs = std::filesystem;
@@ -52,6 +54,7 @@ void Editor::recover(std::size_t index) {
   };
   const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
     if (result) {
+      if (!*claim) *claim = editor.take_over(work.project);
       Tab& recovered = *editor.find_tab(id);
       recovered.path = work.project;
       recovered.read_only = !work.project.empty() && !*claim;
@@ -64,6 +67,20 @@ void Editor::recover(std::size_t index) {
     editor.state_.recovered.insert(editor.state_.recovered.begin(), work);
   };
   run(tab, "Recovering " + work.name, job, then);
+}
+
+std::optional<FileClaim> Editor::take_over(const fs::path& project) {
+  for (std::size_t i = 0; i < state_.tabs.size(); ++i) {
+    const Tab& tab = state_.tabs[i];
+    Memory& memory = memories_[tab.id];
+    if (!memory.claim || tab.path != project) continue;
+    // What was in hand when it is asked may not be in the snapshot.
+    if (tab.session->activity().busy || tab.session->snapshot()->modified) return std::nullopt;
+    std::optional<FileClaim> claim = std::exchange(memory.claim, std::nullopt);
+    remove_tab(i);
+    return claim;
+  }
+  return std::nullopt;
 }
 
 void Editor::discard_recovered(const action::DiscardRecovered& asked) {

@@ -64,7 +64,7 @@ struct RecoveredWork {
   std::filesystem::path project;
   /// Of the document, as a person knows it.
   std::string name;
-  /// "today 14:03", "Tuesday 9:12".
+  /// "today 14:03", "Tuesday 09:12".
   std::string when;
   /// Since it was last saved.
   std::size_t steps = 0;

@@ -34,7 +34,7 @@ std::string describe_time(std::chrono::system_clock::time_point time, std::chron
   const std::tm then = local_time(time);
   const long days = days_between(then, local_time(now));
   char clock[16];
-  std::snprintf(clock, sizeof clock, " %d:%02d", then.tm_hour, then.tm_min);
+  std::snprintf(clock, sizeof clock, " %02d:%02d", then.tm_hour, then.tm_min);
   if (days == 0) return std::string("today") + clock;
   if (days == 1) return std::string("yesterday") + clock;
   if (days > 1 && days < 7) return kDays[then.tm_wday] + std::string(clock);

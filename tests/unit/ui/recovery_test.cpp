@@ -194,6 +194,40 @@ TEST_F(Recovery, a_project_comes_back_under_its_own_name) {
   EXPECT_FALSE(run.state().question);
 }
 
+TEST_F(Recovery, takes_the_place_of_its_project_while_that_is_as_it_was_saved) {
+  const fs::path file = folder_ / "work.ora";
+  for (const bool touched : {false, true}) {
+    SCOPED_TRACE(touched);
+    {
+      Program run(state_);
+      run.does(action::Open{picture("sea.png", 60)});
+      run.does(action::AddSource{std::string(kTargetName)});
+      run.does(action::SaveAs{file, true});
+      run.does(action::Execute{LayerRename{{}, "newer"}});
+    }
+    Program run(state_);
+    run.does(action::Open{file});
+    run.does(action::Open{picture("other.png", 50)});
+    if (touched) {
+      run.does(action::SelectTab{0});
+      run.does(action::Execute{LayerRename{{}, "own"}});
+    }
+    run.does(action::Recover{0});
+    ASSERT_EQ(run.state().tabs.size(), touched ? 3U : 2U);
+    EXPECT_EQ(run.state().front, run.state().tabs.size() - 1);
+    EXPECT_EQ(run.snapshot()->document.layers[0].name, "newer");
+    EXPECT_EQ(run.state().tab()->read_only, touched);
+    run.does(action::Save{});
+    EXPECT_EQ(run.snapshot()->modified, touched);
+    EXPECT_EQ(run.state().file_request.has_value(), touched);
+    run.does(action::Dismiss{});
+    run.does(action::SelectTab{0});
+    EXPECT_EQ(run.snapshot()->document.layers.empty(), !touched) << "no other tab is closed";
+    run.does(action::Quit{true});
+    run.editor.leave();
+  }
+}
+
 TEST_F(Recovery, the_second_window_on_a_project_is_told_and_does_not_save_over_it) {
   const fs::path file = folder_ / "work.ora";
   Program first(state_);
@@ -227,7 +261,7 @@ TEST(LostWork, is_told_by_the_clock_on_the_wall) {
     return describe_time(now - std::chrono::hours(hours) - std::chrono::minutes(minutes), now);
   };
   EXPECT_EQ(before(0, 5), "today 11:55");
-  EXPECT_EQ(before(12), "today 0:00");
+  EXPECT_EQ(before(12), "today 00:00");
   EXPECT_EQ(before(12, 1), "yesterday 23:59");
   EXPECT_EQ(before(48), "Tuesday 12:00");
   EXPECT_EQ(before(6 * 24), "Friday 12:00");
