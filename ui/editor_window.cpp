@@ -151,8 +151,9 @@ void draw_status(Frame& frame) {
 void draw_parts(Frame& frame) {
   draw_menu_bar(frame.entries, frame.layout.menu, frame.context);
   if (!frame.layout.tabs.empty())
-    draw_area("##tabs", frame.layout.tabs, 0,
-              [&] { draw_tab_bar(make_tab_bar_model(frame.state), frame.layout.tabs, frame.context); });
+    draw_area("##tabs", frame.layout.tabs, 0, [&] {
+      draw_tab_bar(make_tab_bar_model(frame.state), frame.parts.tabs, frame.layout.tabs, frame.context);
+    });
   draw_strip(frame);
   if (!frame.layout.offer.empty())
     draw_area("##recovery", frame.layout.offer, 0,

@@ -6,8 +6,11 @@
 #include "ui/panels/file_browser.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/layers_panel.h"
+#include "ui/panels/tab_bar.h"
 #include "ui/state/shortcuts.h"
 #include "ui/window_state.h"
+
+#include <limits>
 
 namespace oversketch {
 
@@ -22,10 +25,13 @@ struct WindowState::Parts {
   WindowFlags flags;
   /// Design pixels.
   float side_width = 320;
+  /// What the side panel's sections above the history needed in the frame before, screen pixels.
+  float sections_height = std::numeric_limits<float>::infinity();
   CanvasesState canvases;
   LayersPanelState layers;
   DeformPanelState deform;
   HistoryPanelState history;
+  TabBarState tabs;
   FileBrowser browser;
   NewDocumentState new_document;
   /// Of a question's answers, the one that Enter gives.

@@ -1,3 +1,4 @@
+#include "tests/support/documents.h"
 #include "tests/unit/ui/headless.h"
 #include "ui/panels/empty_state.h"
 #include "ui/panels/menu_bar.h"
@@ -84,21 +85,73 @@ TEST_F(Bars, WorkCanBeCancelled) {
 }
 
 TEST(TabRuns, HoldTheOneInFront) {
-  for (std::size_t tabs = 0; tabs < 9; ++tabs)
+  TabBarState state;
+  for (std::size_t tabs = 1; tabs < 9; ++tabs)
     for (std::size_t front = 0; front < tabs; ++front)
       for (std::size_t room = 0; room < 10; ++room) {
-        const TabRun run = run_of_tabs(tabs, front, room);
+        const TabRun run = scroll_tabs(state, tabs, front, room, 0);
         EXPECT_LE(run.first, front);
         EXPECT_LT(front, run.first + run.count);
         EXPECT_LE(run.first + run.count, tabs);
-        EXPECT_LE(run.count, std::max<std::size_t>(room, 1));
+        EXPECT_EQ(run.count, std::min(tabs, std::max<std::size_t>(room, 1)));
       }
+  EXPECT_EQ(scroll_tabs(state, 0, 0, 4, 0).count, 0U);
+}
+
+TEST(TabRuns, StayWhereTheWheelTookThem) {
+  TabBarState state;
+  EXPECT_EQ(scroll_tabs(state, 11, 10, 5, 0).first, 6U);
+  EXPECT_EQ(scroll_tabs(state, 11, 10, 5, 0.5F).first, 6U);
+  EXPECT_EQ(scroll_tabs(state, 11, 10, 5, 0.5F).first, 5U) << "parts of a notch add up";
+  EXPECT_EQ(scroll_tabs(state, 11, 10, 5, 30).first, 0U);
+  EXPECT_EQ(scroll_tabs(state, 11, 10, 5, 0).first, 0U);
+  EXPECT_EQ(scroll_tabs(state, 11, 2, 5, 0).first, 0U) << "it is in sight already";
+  EXPECT_EQ(scroll_tabs(state, 11, 2, 5, -30).first, 6U);
+  EXPECT_EQ(scroll_tabs(state, 10, 2, 5, 0).first, 2U);
+}
+
+TEST_F(Bars, TabsThatHaveNoRoomAreScrolledToAndListed) {
+  TabBarModel model{{}, 10};
+  for (int i = 0; i < 11; ++i)
+    model.tabs.push_back({"picture " + std::to_string(i), "picture", false});
+  TabBarState tabs;
+  const Area area{ImVec2(0, 0), ImVec2(430, 30)};
+  show([&](const DrawContext& context) { draw_tab_bar(model, tabs, area, context); });
+  EXPECT_TRUE(has("tab.10"));
+  EXPECT_FALSE(has("tab.0"));
+  move_to(at("tab.10"));
+  ImGui::GetIO().MouseWheel = 20;
+  frame();
+  ASSERT_TRUE(has("tab.0"));
+  EXPECT_FALSE(has("tab.10"));
+  click("tab.0", 0.2F);
+  EXPECT_EQ(take_one<action::SelectTab>().tab, 0U);
+  click("tab.list");
+  frame();
+  ASSERT_TRUE(has("tab.list.10"));
+  expect_tips();
+  click("tab.list.7");
+  EXPECT_EQ(take_one<action::SelectTab>().tab, 7U);
+}
+
+TEST_F(Bars, ATabsTipHoldsItsNameAndSaysWhatIsNotSaved) {
+  state.tabs[0].name = "a long name";
+  state.tabs[0].session = std::make_unique<LiveSession>();
+  EXPECT_EQ(make_tab_bar_model(state).tabs[0].tip, "a long name");
+  LiveSession& session = *state.tabs[0].session;
+  session.execute(testing::new_document(20, 15));
+  session.execute(LayerAdd{testing::loaded_ref("fish.png", testing::wavy_image(9, 8, 1)), "fish"});
+  session.wait_until_idle();
+  EXPECT_EQ(make_tab_bar_model(state).tabs[0].tip, "a long name\nNot saved yet");
+  state.tabs[0].path = "/a/sea.ora";
+  EXPECT_EQ(make_tab_bar_model(state).tabs[0].tip, "/a/sea.ora");
 }
 
 TEST_F(Bars, TabsComeToTheFrontAndClose) {
   TabBarModel model{{{"sea", "sea.jpg", false}, {"giraffe", "Not saved yet", true}, {"three", "x", false}}, 0};
+  TabBarState tabs;
   const Area area{ImVec2(0, 0), ImVec2(900, 30)};
-  show([&](const DrawContext& context) { draw_tab_bar(model, area, context); });
+  show([&](const DrawContext& context) { draw_tab_bar(model, tabs, area, context); });
   expect_tips();
   click("tab.1", 0.2F);
   EXPECT_EQ(take_one<action::SelectTab>().tab, 1U);

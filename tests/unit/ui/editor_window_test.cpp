@@ -2,6 +2,7 @@
 
 #include "tests/support/documents.h"
 #include "tests/unit/ui/headless.h"
+#include "ui/panels/window_parts.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -55,6 +56,30 @@ TEST_F(WholeWindow, HasEveryPartAtEverySize) {
       EXPECT_LE(box.x + box.w, size.x + 0.5F) << name << " at " << size.x;
       EXPECT_LE(box.y + box.h, size.y + 0.5F) << name << " at " << size.y;
     }
+  }
+}
+
+TEST_F(WholeWindow, ShowsThePresentStepHoweverFullTheSidePanelIs) {
+  open_document();
+  LiveSession& session = *state.tabs[0].session;
+  for (int i = 0; i < 20; ++i)
+    session.execute(LayerRename{{}, "name " + std::to_string(i)});
+  session.wait_until_idle();
+  for (const ImVec2 size : {ImVec2(1600, 1000), ImVec2(1600, 700), ImVec2(1024, 560)}) {
+    ImGui::GetIO().DisplaySize = size;
+    window.parts().flags.side_panel = window.parts().flags.side_over = true;
+    for (int step = 0; step < 3; ++step) {
+      // The last step, one before it, and that with more above the list.
+      if (step == 1) session.undo(9);
+      if (step == 2 && has("blend.more")) click("blend.more");
+      session.wait_until_idle();
+      show_window();
+      frame();
+      const std::string present = "history." + std::to_string(session.snapshot()->cursor);
+      ASSERT_TRUE(has(present)) << size.y << " " << step;
+      EXPECT_NEAR(widgets_.boxes().find(present)->second.h, look_.px(24), 1) << size.y << " " << step;
+    }
+    session.redo(9);
   }
 }
 
