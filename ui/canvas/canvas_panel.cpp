@@ -243,8 +243,9 @@ void draw_document(const EditorState& state, const Tab& tab, CanvasesState& canv
                           context.look.scale};
   fit_where_wanted(frame, view, context.sink);
   canvases.input.update(events, frame, context.sink);
-  const ToolDrawing drawing = canvases.input.draw(frame);
+  ToolDrawing drawing = canvases.input.draw(frame);
   if (const auto cursor = canvases.input.cursor(frame, drawing)) context.reply.cursor = cursor;
+  if (view.before_held) drawing = {};
   show_places(frame.layout, context);
 
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -123,8 +123,7 @@ void draw_blend_panel(const BlendModel& model, const DrawContext& context) {
         {.caption = "colour mismatch along the boundary",
          .color = context.look.warning,
          .height = 42,
-         .from_zero = true,
-         .caption_above = true});
+         .from_zero = true});
 }
 
 } // namespace oversketch

@@ -154,7 +154,7 @@ void draw_deform_panel(const DeformModel& model, DeformPanelState& state, const 
   if (model.energies.size() >= 2)
     draw_plot(context, "deform.energy", {"The energy after each step of the solver; it falls and settles.", {}},
               model.energies,
-              {.caption = "energy per step", .color = context.look.plot, .height = 36, .logarithmic = true});
+              {.caption = "energy per step", .color = context.look.plot, .height = 46, .logarithmic = true});
   draw_numbers(model, context);
   draw_alternatives(model, pictures, context);
 }

@@ -90,16 +90,26 @@ int draw_segments(const DrawContext& context, std::string_view id, std::span<con
   const ThemeLook& look = context.look;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(24));
-  const float each = (end.x - at.x) / static_cast<float>(options.size()), alpha = ImGui::GetStyle().Alpha;
+  // What the labels leave is shared out evenly between them.
+  const auto label_width = [](const Option& option) {
+    return ImGui::CalcTextSize(option.label.data(), option.label.data() + option.label.size()).x;
+  };
+  float spare = end.x - at.x;
+  for (const Option& option : options)
+    spare -= label_width(option);
+  spare /= static_cast<float>(options.size());
+  const float alpha = ImGui::GetStyle().Alpha;
+  float x = at.x;
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, end, faded(look.raised, alpha), look.px(4));
   int clicked = -1;
   for (int i = 0; i < static_cast<int>(options.size()); ++i) {
     const Option& option = options[static_cast<std::size_t>(i)];
     const IdScope scope(option.id);
-    const ImVec2 corner(at.x + each * static_cast<float>(i), at.y), last(corner.x + each, end.y);
+    const ImVec2 corner(x, at.y), last(corner.x + std::max(1.0F, label_width(option) + spare), end.y);
+    x = last.x;
     ImGui::SetCursorScreenPos(corner);
-    if (ImGui::InvisibleButton("##segment", ImVec2(each, end.y - at.y))) clicked = i;
+    if (ImGui::InvisibleButton("##segment", ImVec2(last.x - corner.x, end.y - at.y))) clicked = i;
     const bool hovered = ImGui::IsItemHovered();
     finish_item(context, std::string(id) + "." + std::string(option.id), {std::string(option.tip)});
     if (i == chosen || hovered)
@@ -130,7 +140,10 @@ int draw_choice(const DrawContext& context, std::string_view id, std::string_vie
   int clicked = -1;
   ImGui::SetNextWindowPos(ImVec2(box.corner.x, box.end.y + look.px(2)));
   ImGui::SetNextWindowSizeConstraints(ImVec2(box.width(), 0), ImVec2(1e4F, 1e4F));
-  if (ImGui::BeginPopup("##options")) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(look.px(8), look.px(6)));
+  const bool popped_up = ImGui::BeginPopup("##options");
+  ImGui::PopStyleVar();
+  if (popped_up) {
     close_popup_on_escape();
     for (int i = 0; i < static_cast<int>(options.size()); ++i) {
       const Option& option = options[static_cast<std::size_t>(i)];

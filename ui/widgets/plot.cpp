@@ -54,7 +54,7 @@ void draw_plot(const DrawContext& context, std::string_view id, const Tip& tip, 
     const auto heights = plot_heights(values, plot);
     std::vector<ImVec2> line;
     line.reserve(heights.size());
-    const float room = end.y - at.y - 2 * pad - (plot.caption_above ? look.px(16) : 0);
+    const float room = end.y - at.y - 2 * pad - look.px(16);
     const float step = (end.x - at.x - 2 * pad) / static_cast<float>(heights.size() - 1);
     for (std::size_t i = 0; i < heights.size(); ++i)
       line.emplace_back(at.x + pad + step * static_cast<float>(i), end.y - pad - heights[i] * room);

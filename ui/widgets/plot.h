@@ -12,16 +12,14 @@ struct PlotLook {
   std::string_view caption = {};
   PackedColor color = 0;
   /// Design pixels.
-  float height = 44;
+  float height = 48;
   /// The scale goes by factors, for energies that fall by orders of magnitude; values ≤ 0 stand at the bottom.
   bool logarithmic = false;
   /// The scale begins at 0 and not at the least value.
   bool from_zero = false;
-  /// The caption has a line of its own over the values, for those that are high everywhere.
-  bool caption_above = false;
 };
 
-/// Values as one small line across the panel, its caption in the corner; the tip tells the value under the pointer.
+/// Values as one small line across the panel, its caption above it; the tip tells the value under the pointer.
 /// Fewer than two finite values are an empty box.
 void draw_plot(const DrawContext& context, std::string_view id, const Tip& tip, std::span<const double> values,
                const PlotLook& plot);
