@@ -48,6 +48,9 @@ void draw_sections(const SidePanelScene& scene, const Area& area, const DrawCont
   const float edge = area.low.y + std::floor(std::min(parts.sections_height, area.height() - least));
   const float needed = draw_scrolled("##sections", {area.low, ImVec2(area.high.x, edge)}, context,
                                      [&] { draw_settings_of_layer(scene, context); });
+  if (needed > edge - area.low.y)
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(area.low.x, edge), ImVec2(area.high.x, edge + context.look.px(1)),
+                                              context.look.line);
   if (std::exchange(parts.sections_height, needed) != needed) context.reply.ask_frame_at(context.now_s);
   draw_scrolled("##history", {ImVec2(area.low.x, edge), area.high}, context,
                 [&] { draw_history_panel(history, parts.history, context); });
