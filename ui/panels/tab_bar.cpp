@@ -85,6 +85,7 @@ TabBarModel make_tab_bar_model(const EditorState& state) {
 
 TabRun scroll_tabs(TabBarState& state, std::size_t tabs, std::size_t front, std::size_t room, float wheel) {
   const std::size_t count = std::min(tabs, std::max<std::size_t>(room, 1));
+  if (count == 0) return {};
   const auto shown = static_cast<float>(count), at = static_cast<float>(front);
   float first = state.first - wheel;
   if (state.front != front || state.tabs != tabs || state.room != room)

@@ -5,6 +5,17 @@
 #include <algorithm>
 
 namespace oversketch {
+namespace {
+
+/// Whether what is drawn is unfolded, after a click on it.  Nothing refers into Dear ImGui's storage afterwards: that
+/// moves when the next item keeps something in it.
+bool read_switch(bool at_first, bool clicked) {
+  int& open = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##open"), at_first ? 1 : 0);
+  if (clicked) open = 1 - open;
+  return open != 0;
+}
+
+} // namespace
 
 Section::Section(const DrawContext& context, std::string_view id, std::string_view title, std::string_view summary,
                  std::string_view tip, bool open_at_first)
@@ -13,12 +24,11 @@ Section::Section(const DrawContext& context, std::string_view id, std::string_vi
   ImGui::PushID(id_.c_str());
   corner_ = ImGui::GetCursorScreenPos();
   width_ = std::max(1.0F, ImGui::GetContentRegionAvail().x);
-  int& open = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##open"), open_at_first ? 1 : 0);
   const float height = look.px(38);
-  if (ImGui::InvisibleButton("##title", ImVec2(width_, height))) open = 1 - open;
+  const bool clicked = ImGui::InvisibleButton("##title", ImVec2(width_, height));
+  open_ = read_switch(open_at_first, clicked);
   const bool hovered = ImGui::IsItemHovered();
   finish_item(context, id_ + ".title", {std::string(tip), "Click folds and unfolds it"});
-  open_ = open != 0;
 
   const ImVec2 end(corner_.x + width_, corner_.y + height);
   float used = 0;
@@ -50,13 +60,12 @@ Section::~Section() {
 bool draw_more(const DrawContext& context, std::string_view id, const Tip& tip, bool forced) {
   const IdScope scope(id);
   const ThemeLook& look = context.look;
-  int& stored = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##open"), 0);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 end(at.x + std::max(1.0F, ImGui::GetContentRegionAvail().x), at.y + look.px(20));
-  if (ImGui::InvisibleButton("##more", ImVec2(end.x - at.x, end.y - at.y)) && !forced) stored = 1 - stored;
+  const bool clicked = ImGui::InvisibleButton("##more", ImVec2(end.x - at.x, end.y - at.y));
+  const bool open = read_switch(false, clicked && !forced) || forced;
   const PackedColor ink = ImGui::IsItemHovered() ? look.ink : look.ink_quiet;
   finish_item(context, id, tip);
-  const bool open = stored != 0 || forced;
   draw_text(at, end, ink, open ? icon::kCaretDown : icon::kCaretRight);
   draw_text(ImVec2(at.x + look.px(14), at.y), end, ink, "More");
   ImGui::SetCursorScreenPos(ImVec2(at.x, end.y + (open ? look.px(2) : 0)));
