@@ -143,6 +143,11 @@ SliderChange wait_for_double_click(const DrawContext& context, Memory& memory, c
   return {SliderChange::Kind::kSet, value_at(memory.real("##share"), spec)};
 }
 
+/// What it is already is not set again.
+SliderChange without_repeats(const SliderChange& change, double value) {
+  return change.kind == SliderChange::Kind::kSet && change.value == value ? SliderChange{} : change;
+}
+
 } // namespace
 
 SliderChange draw_slider(const DrawContext& context, std::string_view id, std::string_view label, const Tip& tip,
@@ -154,9 +159,8 @@ SliderChange draw_slider(const DrawContext& context, std::string_view id, std::s
   double shown = memory.shown(value, context.now_s);
   SliderChange change;
   if (memory.whole("##typing") != 0) {
-    change = draw_typing(context, box, label, value, spec, memory);
+    change = without_repeats(draw_typing(context, box, label, value, spec, memory), value);
     finish_item(context, id, tip);
-    if (change.kind == Kind::kSet && change.value == value) change = {};
     if (change.kind == Kind::kSet) memory.show(change.value, value, context.now_s);
     end_row(context, box);
     return change;
@@ -183,7 +187,7 @@ SliderChange draw_slider(const DrawContext& context, std::string_view id, std::s
   if (hovered && ImGui::IsMouseClicked(0)) memory.whole("##reset") = ImGui::IsMouseDoubleClicked(0) ? 1 : 0;
   if (change.kind == Kind::kAbandon) memory.forget();
   if (change.kind == Kind::kNone) change = wait_for_double_click(context, memory, spec);
-  if (change.kind == Kind::kSet && change.value == value) change = {};
+  change = without_repeats(change, value);
   if (change.kind == Kind::kSet || change.kind == Kind::kPreview || change.kind == Kind::kCommit) {
     memory.show(change.value, value, context.now_s);
     shown = change.value;
