@@ -108,12 +108,15 @@ struct SketchReset {
 struct PinAdd {
   LayerRef layer;
   Point outline, sketch;
+  /// It takes another of the matcher's answers.
+  bool match = false;
   bool operator==(const PinAdd&) const = default;
 };
 struct PinMove {
   LayerRef layer;
   PinId pin;
   std::optional<Point> outline, sketch;
+  bool match = false;
   bool operator==(const PinMove&) const = default;
 };
 struct PinRemove {

@@ -11,6 +11,8 @@ namespace oversketch {
 
 inline constexpr double kFar = kMaskCoordinateLimit;
 inline constexpr std::string_view kLayerHelp = "the layer; the selected one when left out";
+inline constexpr std::string_view kMatchHelp =
+    "takes another way to lay the outline along the sketch, as the history says";
 
 template <>
 struct Spec<DocumentNew> {
@@ -152,7 +154,8 @@ struct Spec<PinAdd> {
     return std::make_tuple(
         Field{"layer", &PinAdd::layer, kLayerHelp},
         Field{"outline", &PinAdd::outline, "snapped to the nearest point of the outline", "source px", -kFar, kFar},
-        Field{"sketch", &PinAdd::sketch, "snapped to the nearest point of the sketch", "target px", -kFar, kFar});
+        Field{"sketch", &PinAdd::sketch, "snapped to the nearest point of the sketch", "target px", -kFar, kFar},
+        Field{"match", &PinAdd::match, kMatchHelp, "", -HUGE_VAL, HUGE_VAL, true});
   }
 };
 
@@ -164,7 +167,8 @@ struct Spec<PinMove> {
     return std::make_tuple(
         Field{"layer", &PinMove::layer, kLayerHelp}, Field{"pin", &PinMove::pin, "the pin"},
         Field{"outline", &PinMove::outline, "snapped to the nearest point of the outline", "source px", -kFar, kFar},
-        Field{"sketch", &PinMove::sketch, "snapped to the nearest point of the sketch", "target px", -kFar, kFar});
+        Field{"sketch", &PinMove::sketch, "snapped to the nearest point of the sketch", "target px", -kFar, kFar},
+        Field{"match", &PinMove::match, kMatchHelp, "", -HUGE_VAL, HUGE_VAL, true});
   }
 };
 

@@ -93,6 +93,8 @@ std::string label_of(const Command& command, const Document& before, const Docum
   const auto compose = [&](const auto& c) {
     using C = std::remove_cvref_t<decltype(c)>;
     std::string text(label_word(command));
+    if constexpr (std::is_same_v<C, PinAdd> || std::is_same_v<C, PinMove>)
+      if (c.match) return std::string("Other match");
     if constexpr (std::is_same_v<C, LayerSet>)
       text += settings_changed(c);
     else if constexpr (std::is_same_v<C, LayerRemove>)

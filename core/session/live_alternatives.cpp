@@ -1,6 +1,7 @@
 #include "core/session/live_alternatives.h"
 
 #include "core/geometry/mask.h"
+#include "core/session/layer_input.h"
 #include "core/warp/warp.h"
 
 #include <algorithm>
@@ -35,51 +36,116 @@ Result<std::shared_ptr<const Raster<Rgba8>>> small_picture(const Layer& layer, c
   return std::shared_ptr<const Raster<Rgba8>>(std::move(picture));
 }
 
-/// The point of the outline that the two put farthest apart.
-std::size_t telling_point(const Deformation& a, const Deformation& b) {
+/// The farthest that the two put a point of the outline apart.
+double difference(const Points& a, const Points& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, distance(a[i], b[i]));
+  return most;
+}
+
+/// The least that two of the answers may differ by, layer px.
+double least_difference(const Points& places) {
+  return 0.05 * bounds(places).diagonal();
+}
+
+/// The point of the outline that the answer has farthest from where any other has it.
+std::size_t telling_point(const std::vector<const Deformation*>& all, const Deformation& own) {
   std::size_t best = 0;
   double most = -1;
-  for (std::size_t i = 0; i < a.outline.size(); ++i) {
-    const double apart = distance(a.outline[i], b.outline[i]);
-    if (apart > most) {
-      most = apart;
-      best = i;
-    }
+  for (std::size_t i = 0; i < own.outline.size(); ++i) {
+    double apart = HUGE_VAL;
+    for (const Deformation* other : all)
+      if (other != &own) apart = std::min(apart, distance(own.outline[i], other->outline[i]));
+    if (apart <= most) continue;
+    most = apart;
+    best = i;
   }
   return best;
 }
 
+Command pin_for(const Layer& layer, Point outline, Point sketch) {
+  const Point target = layer.placement.to_target()(sketch);
+  if (layer.pins.empty()) return PinAdd{layer.id, outline, target, true};
+  return PinMove{layer.id, layer.pins.front().id, outline, target, true};
+}
+
 } // namespace
 
-Result<std::vector<AlternativeSnapshot>> Alternatives::list(Session& session, const Watch& watch) {
+Result<Alternatives::Matches> Alternatives::find_matches(Session& session, const Layer& layer, const Watch& watch) {
+  const auto solved = session.alternatives(layer.id, kOffered, watch);
+  if (!solved) return solved.error();
+  const double best = solved->front().match_cost.value_or(0);
+  std::vector<const Deformation*> offered;
+  for (const Deformation& each : *solved) {
+    const auto is_like = [&](const Deformation* other) {
+      return difference(each.outline, other->outline) < least_difference(each.outline);
+    };
+    if (each.match_cost.value_or(0) > best + kCloseCall || std::ranges::any_of(offered, is_like)) continue;
+    offered.push_back(&each);
+  }
+  Matches matches;
+  if (offered.size() < 2) return matches;
+  const ClosedCurve sketch(layer.sketch);
+  for (const Deformation* each : offered) {
+    auto picture = small_picture(layer, *each, watch);
+    if (!picture) return picture.error();
+    const std::size_t at = telling_point(offered, *each);
+    matches.push_back({layer.outline[at], sketch.nearest(each->outline[at]).point, each->outline,
+                       each->match_cost.value_or(0), std::move(*picture)});
+  }
+  return matches;
+}
+
+Result<const Alternatives::Match*> Alternatives::chosen_of(const Matches& matches, Session& session, const Layer& layer,
+                                                           const Watch& watch) {
+  if (layer.pins.empty()) {
+    const auto shown = session.deformation(layer.id, watch);
+    if (!shown) return shown.error();
+    const auto apart = [&](const Match& match) { return difference(match.places, (*shown)->outline); };
+    const auto nearest = std::ranges::min_element(matches, {}, apart);
+    return apart(*nearest) < least_difference(nearest->places) ? &*nearest : nullptr;
+  }
+  // Where a pin was put and where it is differ by rounding.
+  const double same = 1e-6 * bounds(layer.sketch).diagonal();
+  const Pin& pin = layer.pins.front();
+  const auto held = std::ranges::find_if(matches, [&](const Match& match) {
+    return distance(match.outline, pin.outline) <= same && distance(match.sketch, pin.sketch) <= same;
+  });
+  return layer.pins.size() == 1 && held != matches.end() ? &*held : nullptr;
+}
+
+Result<std::vector<AlternativeSnapshot>> Alternatives::list(Session& session, bool find, const Watch& watch) {
   using List = std::vector<AlternativeSnapshot>;
   const Document& document = session.shown();
   const Layer* layer = document.selected ? document.find(*document.selected) : nullptr;
-  const bool choice = layer != nullptr && !layer->outline.empty() && layer->pins.empty() &&
+  const bool choice = layer != nullptr && !layer->outline.empty() && layer->pins.size() <= 1 &&
                       layer->settings.method == DeformMethod::kFlipfree;
   if (!choice) return List();
-  const Hash key = *session.deformation_name(layer->id);
-  if (const auto known = known_.find(key)) return *known;
-
-  const auto shown = session.deformation(layer->id, watch);
-  if (!shown) return shown.error();
-  const auto solved = session.alternatives(layer->id, kOffered, watch);
-  if (!solved) return solved.error();
-  List list;
-  const double best = solved->front().match_cost.value_or(0);
-  for (const Deformation& other : *solved) {
-    const std::size_t at = telling_point(other, **shown);
-    const double apart = distance(other.outline[at], (*shown)->outline[at]);
-    const Box box = bounds(other.boundary);
-    // The one that is shown is no alternative to itself.
-    if (apart < 0.05 * box.diagonal()) continue;
-    if (other.match_cost.value_or(0) > best + kCloseCall) continue;
-    auto picture = small_picture(*layer, other, watch);
-    if (!picture) return picture.error();
-    const PinAdd take{layer->id, layer->outline[at], layer->placement.to_target()(other.outline[at])};
-    list.push_back({take, other.match_cost.value_or(0), std::move(*picture)});
+  Layer unpinned = *layer;
+  unpinned.pins.clear();
+  const std::complex<double> turn = layer->placement.factor;
+  const Hash key = Hasher()
+                       .add(solution_key(unpinned))
+                       .add(layer->settings.cell_px)
+                       .add(layer->source.image.content_hash())
+                       .add(turn.real())
+                       .add(turn.imag())
+                       .finish();
+  auto known = known_.find(key);
+  if (!known) {
+    if (!find) return List();
+    auto found = find_matches(session, *layer, watch);
+    if (!found) return found.error();
+    known = known_.put(key, std::make_shared<const Matches>(std::move(*found)));
   }
-  known_.put(key, std::make_shared<const List>(list));
+  if (known->empty()) return List();
+  const auto chosen = chosen_of(*known, session, *layer, watch);
+  if (!chosen) return chosen.error();
+  List list;
+  if (!layer->pins.empty() && *chosen == nullptr) return list;
+  for (const Match& match : *known)
+    list.push_back({pin_for(*layer, match.outline, match.sketch), &match == *chosen, match.cost, match.picture});
   return list;
 }
 

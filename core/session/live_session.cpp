@@ -311,8 +311,8 @@ void LiveSession::State::show(live::Quality quality, const std::stop_token& stop
   if (const auto compared = guarded([&] { return compare(quality, made, watch); });
       !compared && !is_cancelled(compared.error()))
     refuse(compared.error());
-  if (rested && view.alternatives)
-    if (auto found = guarded([&] { return alternatives.list(session, watch); }); found)
+  if (view.alternatives)
+    if (auto found = guarded([&] { return alternatives.list(session, rested, watch); }); found)
       made.alternatives = std::move(*found);
   publish(std::move(made), std::move(changed));
   last_shown = Clock::now();

@@ -189,8 +189,7 @@ Result<std::vector<Deformation>> Session::alternatives(LayerId id, int count, co
   if (layer->outline.empty()) return Error{"layer.no-region", "set the region's outline first", place_of(*layer)};
   const auto system = system_of(*layer, watch);
   if (!system) return system.error();
-  auto solved =
-      (*system)->alternatives(layer->sketch, pin_pairs(*layer), deform_options(*layer), count, counters_.deform, watch);
+  auto solved = (*system)->alternatives(layer->sketch, {}, deform_options(*layer), count, counters_.deform, watch);
   if (!solved) return at(place_of(*layer), solved.error());
   return solved;
 }

@@ -103,7 +103,8 @@ public:
   /// Its distortion; lengths in target pixels.
   Result<Metrics> metrics(LayerId id, const Watch& watch = {});
 
-  /// The best match of a flip-free layer's curves, solved from nothing, and up to `count` − 1 runners-up.
+  /// The best match of a flip-free layer's curves, solved from nothing as if it had no pins, and up to `count` − 1
+  /// runners-up.
   /// @errors as deformation().
   Result<std::vector<Deformation>> alternatives(LayerId id, int count, const Watch& watch = {});
 

@@ -44,10 +44,12 @@ struct ComparePicture {
   std::shared_ptr<const Raster<Rgba8>> pixels;
 };
 
-/// Another of the matcher's answers to where the curves begin, solved.
+/// One of the matcher's answers to where the curves begin, solved.
 struct AlternativeSnapshot {
-  /// What takes it: a pin at the point that tells it best from the answer that is shown.
-  PinAdd take;
+  /// What takes it: a pin at the point that tells it best from the others, added or moved there.
+  Command take;
+  /// It is what the layer shows.
+  bool chosen = false;
   double match_cost = 0;
   /// The deformed region, small, transparent outside.
   std::shared_ptr<const Raster<Rgba8>> picture;
@@ -74,8 +76,8 @@ struct Snapshot {
   std::uint64_t problem_number = 0;
 
   std::optional<ComparePicture> compare;
-  /// Of the selected layer, when they were asked for: the answers that are nearly as good as the one shown.  None
-  /// where pins decide.
+  /// Of the selected layer, when they were asked for: the best answer and those nearly as good.  None where there is
+  /// no other, or where pins decide that hold none of these.
   std::vector<AlternativeSnapshot> alternatives;
 
   const LayerSnapshot* find(LayerId id) const;

@@ -85,7 +85,7 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
   if (model.alternatives.empty()) return;
   const ThemeLook& look = context.look;
   ImGui::Dummy(ImVec2(1, look.px(2)));
-  draw_note(context, "Other ways to fit the curves");
+  draw_note(context, "Ways to fit the curves");
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, gap = look.px(6);
   const float side = std::min(look.px(84), (width - 2 * gap) / 3);
@@ -97,13 +97,18 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
     const ImVec2 corner(at.x + column * (side + gap), at.y + line * (side + gap)),
         end(corner.x + side, corner.y + side);
     ImGui::SetCursorScreenPos(corner);
-    if (ImGui::InvisibleButton("##choice", ImVec2(side, side))) context.sink.emit(action::Execute{choice.take});
+    if (ImGui::InvisibleButton("##choice", ImVec2(side, side)) && !choice.chosen)
+      context.sink.emit(action::Execute{choice.take});
     const bool hovered = ImGui::IsItemHovered();
     finish_item(context, id,
-                {"Another way to lay the outline along the sketch. Click takes it: one pin holds it there.", {}});
+                {choice.chosen ? "How the outline lies along the sketch now."
+                               : "Another way to lay the outline along the sketch. Click takes it: one pin holds it.",
+                 {}});
     ImGui::GetWindowDrawList()->AddRectFilled(corner, end, look.sunken, look.px(4));
     draw_picture_in(pictures, choice.picture, corner, end, context);
-    if (hovered) ImGui::GetWindowDrawList()->AddRect(corner, end, look.accent, look.px(4), 0, look.px(1.5F));
+    if (hovered || choice.chosen)
+      ImGui::GetWindowDrawList()->AddRect(corner, end, look.accent, look.px(4), 0,
+                                          look.px(choice.chosen ? 2.5F : 1.2F));
   }
   const auto lines = static_cast<float>((model.alternatives.size() + 2) / 3);
   ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + lines * (side + gap)));

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <thread>
 
 namespace oversketch {
@@ -286,6 +287,56 @@ TEST(LiveSession, takes_requests_from_several_threads) {
   live.wait_until_idle();
   EXPECT_EQ(live.snapshot()->document.find(LayerId{1})->placement.dx, 60);
   EXPECT_EQ(live.snapshot()->history.size(), 64u);
+}
+
+TEST(LiveSession, every_match_can_be_taken_and_taken_back_in_one_step) {
+  Points bar;
+  for (int i = 0; i < 48; ++i) {
+    const double t = 2 * std::numbers::pi * (i + 0.5) / 48;
+    bar.push_back({60 + 40 * std::cos(t), 60 + 18 * std::sin(t)});
+  }
+  LiveSession live;
+  live.want_alternatives(true);
+  std::vector<Command> commands = sketched();
+  commands[2] = RegionSet{{}, bar};
+  commands[3] = SketchSet{{}, bar};
+  execute_all(live, commands);
+  const auto chosen = [&] {
+    std::vector<bool> all;
+    for (const AlternativeSnapshot& each : live.snapshot()->alternatives)
+      all.push_back(each.chosen);
+    return all;
+  };
+  const auto take = [&](std::size_t index) {
+    live.execute(live.snapshot()->alternatives.at(index).take);
+    live.wait_until_idle();
+  };
+  const auto places = [&] { return live.snapshot()->layers.at(0).deformation->outline; };
+  ASSERT_EQ(chosen(), (std::vector{true, false})) << "a bar and its half turn";
+  const Points first = places();
+  const std::size_t steps = live.snapshot()->history.size();
+  take(1);
+  EXPECT_EQ(chosen(), (std::vector{false, true})) << "all stay there to be taken";
+  EXPECT_GT(distance(places()[0], first[0]), 40);
+  live.execute(LayerMove{{}, {7, 5}});
+  live.wait_until_idle();
+  take(0);
+  EXPECT_EQ(chosen(), (std::vector{true, false}));
+  EXPECT_LT(distance(places()[0], first[0]), 1);
+  const auto snapshot = live.snapshot();
+  ASSERT_EQ(snapshot->history.size(), steps + 3);
+  EXPECT_EQ(snapshot->history[steps], "Other match");
+  EXPECT_EQ(snapshot->history[steps + 2], "Other match");
+  live.undo();
+  live.wait_until_idle();
+  EXPECT_EQ(chosen(), (std::vector{false, true}));
+  live.undo(2);
+  live.wait_until_idle();
+  EXPECT_EQ(chosen(), (std::vector{true, false}));
+  EXPECT_TRUE(live.snapshot()->document.layers[0].pins.empty());
+  live.execute(PinAdd{{}, bar[5], bar[9]});
+  live.wait_until_idle();
+  EXPECT_TRUE(chosen().empty()) << "another pin decides";
 }
 
 } // namespace

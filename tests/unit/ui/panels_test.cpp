@@ -251,11 +251,13 @@ TEST_F(Panels, AlternativesAreAskedForWhileTheyAreSeen) {
 TEST_F(Panels, AlternativesAreClicked) {
   for (int i = 0; i < 3; ++i)
     snapshot.alternatives.push_back(
-        {PinAdd{{}, {1.0 * i, 2}, {3, 4}}, 1.0 + i, std::make_shared<const Raster<Rgba8>>(8, 8)});
+        {PinAdd{{}, {1.0 * i, 2}, {3, 4}}, i == 0, 1.0 + i, std::make_shared<const Raster<Rgba8>>(8, 8)});
   show([this](const DrawContext& context) {
     draw_deform_panel(make_deform_model(snapshot), deform, this, pictures, context);
   });
   take();
+  click("deform.alternative.0");
+  EXPECT_TRUE(take().empty()) << "it is taken already";
   click("deform.alternative.2");
   EXPECT_EQ(take_command<PinAdd>().outline, (Point{2, 2})) << "the pin that holds it";
   snapshot.alternatives.clear();
