@@ -55,15 +55,16 @@ void draw_area(const char* name, const Area& area, ImGuiWindowFlags flags, const
   ImGui::EndChild();
 }
 
-WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, bool offer,
+WindowLayout lay_out(const EditorState& state, const WindowState::Parts& parts, const RecoveryBarModel& recovery,
                      const DrawContext& context) {
+  const float offer = recovery.documents > 0 ? 36.0F : 0.0F;
   return lay_out_window({.size = ImGui::GetIO().DisplaySize,
                          .scale = context.look.scale,
                          .side_width = parts.side_width,
                          .side = parts.flags.side_panel && !state.tabs.empty(),
                          .side_over = parts.flags.side_over && !state.tabs.empty(),
                          .tabs = !state.tabs.empty(),
-                         .offer = offer});
+                         .offer = state.notice.empty() ? offer : notice_height(state.notice)});
 }
 
 std::optional<PointerPlace> find_pointer(const EditorState& state, const DrawContext& context) {
@@ -119,8 +120,16 @@ void draw_strip(Frame& frame) {
   register_box(frame.context, "panel.tools", area.low, area.high);
 }
 
-/// A dialog takes what happens.  What was in hand when it came is let go: its end would not be seen.
+/// A dialog takes what happens.  What was in hand when it came is let go: its end would not be seen.  An open menu
+/// takes the keys, that which closes it among them.
 InputEvents canvas_events(const InputEvents& events, bool dialog, bool dialog_before) {
+  if (!dialog && !dialog_before && is_popup_open()) {
+    InputEvents others = events;
+    std::erase_if(others, [](const InputEvent& event) {
+      return event.kind == InputEvent::Kind::kKeyDown || event.kind == InputEvent::Kind::kKeyRepeat;
+    });
+    return others;
+  }
   if (!dialog) return dialog_before ? InputEvents() : events;
   if (dialog_before) return {};
   InputEvent lost;
@@ -156,8 +165,10 @@ void draw_parts(Frame& frame) {
     });
   draw_strip(frame);
   if (!frame.layout.offer.empty())
-    draw_area("##recovery", frame.layout.offer, 0,
-              [&] { draw_recovery_bar(frame.recovery, frame.layout.offer, frame.context); });
+    draw_area("##offer", frame.layout.offer, 0, [&] {
+      if (!frame.state.notice.empty()) return draw_notice_bar(frame.state.notice, frame.layout.offer, frame.context);
+      draw_recovery_bar(frame.recovery, frame.layout.offer, frame.context);
+    });
   draw_middle(frame);
   draw_status(frame);
   if (!frame.layout.side.empty())
@@ -182,7 +193,7 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
               for_canvases,
               context,
               recovery,
-              lay_out(state, parts, recovery.documents > 0, context),
+              lay_out(state, parts, recovery, context),
               {state, snapshot.get(), parts.flags, context.sink}};
   parts.flags.narrow = frame.layout.narrow;
   // Nor is anything undone or saved under a hand that is drawing, or behind an open menu.
@@ -208,6 +219,7 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   ImGui::End();
   draw_dialogs(state, parts, pictures, events, context);
   parts.dialog_open = dialog;
+  compat::let_keys_move(is_popup_open());
 }
 
 } // namespace oversketch

@@ -2,6 +2,7 @@
 
 #include "ui/render/screen.h"
 #include "ui/theme/fonts.h"
+#include "ui/widgets/imgui_compat.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -104,6 +105,7 @@ void ImGuiLayer::begin_frame(const std::vector<RawEvent>& batch) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   set_pointer();
+  compat::let_enter_choose();
   ImGui::NewFrame();
 }
 

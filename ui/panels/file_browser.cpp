@@ -283,6 +283,15 @@ void FileBrowser::jump(char typed, double now_s) {
   if (found >= 0) choose(found);
 }
 
+bool FileBrowser::begin_path(std::string_view text) {
+  text = text.substr(0, text.find_first_of("\r\n"));
+  const std::size_t at = text.find_first_not_of(" \t");
+  if (at == std::string_view::npos || (text[at] != '/' && text[at] != '~')) return false;
+  path_text = text.substr(at);
+  path_begins = true;
+  return true;
+}
+
 void FileBrowser::read_keys(const InputEvents& events, bool typing, double now_s, ActionSink& sink) {
   for (const InputEvent& event : events) {
     const bool down = event.kind == InputEvent::Kind::kKeyDown || event.kind == InputEvent::Kind::kKeyRepeat;
@@ -314,7 +323,7 @@ void FileBrowser::read_keys(const InputEvents& events, bool typing, double now_s
     case Key::kEnter:
       return replaces_ ? replace(sink) : accept(sink);
     default:
-      if (static_cast<int>(event.key) > 32 && static_cast<int>(event.key) < 127)
+      if (event.key != key_of('/') && static_cast<int>(event.key) > 32 && static_cast<int>(event.key) < 127)
         jump(static_cast<char>(std::tolower(static_cast<int>(event.key))), now_s);
     }
   }

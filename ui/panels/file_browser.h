@@ -68,6 +68,10 @@ public:
   void replace(ActionSink& sink);
   void keep_file() { replaces_.reset(); }
   void cancel(ActionSink& sink);
+  /// Text that comes while the list has the keyboard and is the beginning of a path, or a whole one that is pasted:
+  /// it goes to the path field.
+  /// @returns whether it is such.
+  bool begin_path(std::string_view text);
   /// Arrows, Enter, Backspace, Esc, and typing that jumps to a name.
   /// @param typing  a text field has the keyboard: then only Esc counts.
   void read_keys(const InputEvents& events, bool typing, double now_s, ActionSink& sink);
@@ -79,6 +83,8 @@ public:
   bool asks_folder = false;
   /// Why something did not go; shown until the next step.
   std::string message;
+  /// The path field is to take the keyboard, behind what stands there.
+  bool path_begins = false;
   /// The chosen row is to be scrolled into sight.
   bool reveal = false;
 

@@ -57,10 +57,16 @@ const char* icon_of(const FileRow& row) {
                                 : icon::kFile;
 }
 
-/// Tab in the path field: as far as all names agree.
+/// Tab in the path field: as far as all names agree.  What has begun outside goes on behind it.
 int complete(ImGuiInputTextCallbackData* data) {
-  const auto& base = *static_cast<const std::filesystem::path*>(data->UserData);
-  const std::string text = complete_path({data->Buf, static_cast<std::size_t>(data->BufTextLen)}, base);
+  FileBrowser& browser = *static_cast<FileBrowser*>(data->UserData);
+  if (data->EventFlag == ImGuiInputTextFlags_CallbackAlways) {
+    if (!std::exchange(browser.path_begins, false)) return 0;
+    data->CursorPos = data->BufTextLen;
+    data->ClearSelection();
+    return 0;
+  }
+  const std::string text = complete_path({data->Buf, static_cast<std::size_t>(data->BufTextLen)}, browser.folder());
   data->DeleteChars(0, data->BufTextLen);
   data->InsertChars(0, text.c_str());
   return 0;
@@ -76,10 +82,11 @@ void draw_path_row(FileBrowser& browser, const DrawContext& context) {
   ImGui::SetCursorScreenPos(ImVec2(at.x + side + look.px(6), at.y));
   ImGui::SetNextItemWidth(width - 2 * (side + look.px(6)));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(look.px(8), (side - ImGui::GetFontSize()) / 2));
-  std::filesystem::path base = browser.folder();
-  const bool entered =
-      ImGui::InputText("##path", &browser.path_text,
-                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion, complete, &base);
+  if (browser.path_begins) give_keys_to_next_field(context);
+  const bool entered = ImGui::InputText("##path", &browser.path_text,
+                                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
+                                            ImGuiInputTextFlags_CallbackAlways,
+                                        complete, &browser);
   ImGui::PopStyleVar();
   finish_item(context, "browser.path", {"Where it is: type a folder or a file. Tab completes, Enter goes there.", {}});
   if (entered) browser.accept_path(context.sink);
@@ -128,6 +135,19 @@ void draw_places(FileBrowser& browser, ImVec2 size, const DrawContext& context) 
   }
   ImGui::Dummy(ImVec2(1, 1));
   ImGui::EndChild();
+}
+
+/// What is typed or pasted while no field has the keyboard.
+void read_path(FileBrowser& browser, const InputEvents& events) {
+  std::string typed;
+  for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters)
+    typed += letter < 128 ? static_cast<char>(letter) : ' ';
+  if (browser.begin_path(typed)) return;
+  const bool pasted = std::ranges::any_of(events, [](const InputEvent& event) {
+    return event.kind == InputEvent::Kind::kKeyDown && event.modifiers.ctrl && event.key == key_of('V');
+  });
+  const char* text = pasted ? ImGui::GetClipboardText() : nullptr;
+  if (text != nullptr) browser.begin_path(text);
 }
 
 /// Right edges of the columns: name, size, date.
@@ -340,6 +360,7 @@ void draw_file_browser(FileBrowser& browser, Pictures& pictures, const InputEven
   const bool typing = ImGui::GetIO().WantTextInput;
   const Dialog dialog(context, "dialog.browser", title_of(browser.request().purpose), ImVec2(920, 620));
   if (!dialog.appears()) browser.read_keys(events, typing, context.now_s, context.sink);
+  if (!dialog.appears() && !typing && !browser.path_begins && !browser.replaces()) read_path(browser, events);
   draw_path_row(browser, context);
   draw_new_folder(browser, context);
 

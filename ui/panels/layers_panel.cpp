@@ -23,7 +23,6 @@ void draw_row_ground(ImVec2 at, ImVec2 end, bool selected, bool hovered, const D
                                             look.px(4));
 }
 
-/// The eye; there always while the layer is hidden, else only where the hand is.
 void draw_eye(const LayerRow& row, ImVec2 at, ImVec2 end, const DrawContext& context) {
   const ThemeLook& look = context.look;
   const float side = look.px(26);
@@ -75,7 +74,7 @@ void draw_row(const LayerRow& row, LayersPanelState& state, const EntryContext& 
   const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(at, end);
   draw_row_ground(at, end, row.selected, over, context);
   // Eye and name field take the pointer before the row does.
-  if (row.selected || over || !row.visible) draw_eye(row, at, end, context);
+  draw_eye(row, at, end, context);
   const float x = at.x + look.px(8 + kThumbnailWidth + 10), right = end.x - look.px(32);
   if (renaming) draw_name_field(row, state, entries.flags, ImVec2(x - look.px(6), at.y), right - x, context);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace oversketch {
 namespace {
@@ -32,44 +33,79 @@ void draw_entry(const Entry& entry, const EntryContext& entries, const DrawConte
   finish_item(context, "menu." + std::string(entry.id), {std::string(entry.help), keys_of(entry)});
 }
 
-void draw_recent(const EntryContext& entries, const DrawContext& context) {
+/// Whether the arrow to the right belongs to the submenu that has just begun, or is open.
+bool takes_right(bool open) {
+  return open || ImGui::IsItemFocused();
+}
+
+/// @returns takes_right().
+bool draw_recent(const EntryContext& entries, const DrawContext& context) {
   const auto& recent = entries.state.preferences.recent_files;
   const bool open = ImGui::BeginMenu("Recent", !recent.empty());
   finish_item(context, "menu.file.recent", {"What was opened before, the newest first."});
-  if (!open) return;
+  if (!open) return takes_right(open);
   for (std::size_t i = 0; i < recent.size() && i < 12; ++i) {
     const IdScope scope(std::to_string(i));
     if (ImGui::MenuItem(recent[i].filename().string().c_str())) entries.sink.emit(action::Open{recent[i]});
     finish_item(context, "menu.file.recent." + std::to_string(i), {recent[i].string()});
   }
   ImGui::EndMenu();
+  return true;
 }
 
-void draw_submenu(const char* label, const char* id, const char* tip, const EntryContext& entries,
+/// @returns takes_right().
+bool draw_submenu(const char* label, const char* id, const char* tip, const EntryContext& entries,
                   const DrawContext& context, void (*draw)(const EntryContext&, std::string_view, const DrawContext&)) {
   const bool open = ImGui::BeginMenu(label);
   finish_item(context, id, {tip});
-  if (!open) return;
+  if (!open) return takes_right(open);
   draw(entries, id, context);
   ImGui::EndMenu();
+  return true;
+}
+
+/// The arrows to the left and right go to the next menu.
+void go_to_neighbour(const MenuTitle& title, bool right_taken, const EntryContext& entries,
+                     const DrawContext& context) {
+  const bool right = compat::is_key_pressed(ImGuiKey_RightArrow) && !right_taken;
+  const bool left = compat::is_key_pressed(ImGuiKey_LeftArrow) && ImGui::IsWindowFocused();
+  if (left == right) return;
+  const auto own = static_cast<std::size_t>(&title - kMenus.data());
+  entries.flags.menu_wanted = kMenus[(own + (right ? 1 : kMenus.size() - 1)) % kMenus.size()].menu;
+  compat::drop_key_move();
+  ImGui::CloseCurrentPopup();
+  context.reply.ask_frame_at(context.now_s);
 }
 
 /// @param padding  of entries; the bar's own, within which this is called, is that of its height.
-void draw_menu(const MenuTitle& title, ImVec2 padding, const EntryContext& entries, const DrawContext& context) {
+/// @param bottom   of the bar: a menu that is too high scrolls below it.  Over the bar it would lie under the pointer
+///   that opens it, and letting go would choose from it.
+/// @param wanted   it is to be opened.
+void draw_menu(const MenuTitle& title, bool wanted, ImVec2 padding, float bottom, const EntryContext& entries,
+               const DrawContext& context) {
+  if (wanted) {
+    ImGui::OpenPopup(title.label);
+    compat::show_keyboard_cursor();
+  }
+  const ImVec2 whole = ImGui::GetIO().DisplaySize, margin = ImGui::GetStyle().DisplaySafeAreaPadding;
+  ImGui::SetNextWindowSizeConstraints(ImVec2(1, 1), ImVec2(whole.x, std::max(1.0F, whole.y - bottom - 2 * margin.y)));
   const bool open = ImGui::BeginMenu(title.label);
   finish_item(context, title.id, {title.tip});
   if (!open) return;
   close_popup_on_escape();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+  bool right_taken = false;
   for (const Entry& entry : oversketch::entries()) {
     if (entry.menu != title.menu) continue;
     draw_entry(entry, entries, context);
-    if (entry.id == "file.sample") draw_recent(entries, context);
+    if (entry.id == "file.sample") right_taken |= draw_recent(entries, context);
     if (entry.id != "view.overlays") continue;
-    draw_submenu("Overlays", "menu.view.overlay", "Which of them are drawn.", entries, context, draw_overlay_entries);
-    draw_submenu("Compare with", "menu.view.compare", "Another result over a part of the picture.", entries, context,
-                 draw_compare_entries);
+    right_taken |= draw_submenu("Overlays", "menu.view.overlay", "Which of them are drawn.", entries, context,
+                                draw_overlay_entries);
+    right_taken |= draw_submenu("Compare with", "menu.view.compare", "Another result over a part of the picture.",
+                                entries, context, draw_compare_entries);
   }
+  go_to_neighbour(title, right_taken, entries, context);
   ImGui::PopStyleVar();
   ImGui::EndMenu();
 }
@@ -127,8 +163,10 @@ void draw_menu_bar(const EntryContext& entries, const Area& area, const DrawCont
     ImGui::TextUnformatted("Oversketch");
     ImGui::SameLine(0, look.px(12));
   }
+  // What one menu wants is opened in the next frame, when that one is gone.
+  const std::optional<Menu> wanted = std::exchange(entries.flags.menu_wanted, std::nullopt);
   for (const MenuTitle& title : kMenus)
-    draw_menu(title, padding, entries, context);
+    draw_menu(title, title.menu == wanted, padding, area.high.y, entries, context);
   const float used = ImGui::GetCursorScreenPos().x + look.px(16);
   draw_text(ImVec2(used, area.low.y), ImVec2(area.high.x - look.px(11), area.high.y), look.ink_quiet,
             document_title(entries.state, entries.snapshot), 1);

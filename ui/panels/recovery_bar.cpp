@@ -3,6 +3,8 @@
 #include "ui/theme/icons.h"
 #include "ui/widgets/buttons.h"
 
+#include <algorithm>
+
 namespace oversketch {
 
 RecoveryBarModel make_recovery_bar_model(const EditorState& state, bool beside_work) {
@@ -38,6 +40,37 @@ void draw_recovery_bar(const RecoveryBarModel& model, const Area& area, const Dr
       context.sink.emit(action::Recover{0});
   draw_text(ImVec2(area.low.x + look.px(14), area.low.y), ImVec2(right - look.px(8), area.high.y), look.ink,
             model.text);
+}
+
+float notice_height(const std::string& notice) {
+  if (notice.empty()) return 0;
+  const auto lines = 1 + std::ranges::count(notice, '\n');
+  return 16 + 20 * static_cast<float>(std::min<std::ptrdiff_t>(lines, 5));
+}
+
+void draw_notice_bar(const std::string& notice, const Area& area, const DrawContext& context) {
+  const ThemeLook& look = context.look;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(area.low, area.high, mixed(look.panel, look.warning, 0.18F));
+  list->AddRectFilled(ImVec2(area.low.x, area.high.y - look.px(1)), area.high, look.line);
+  register_box(context, "panel.notice", area.low, area.high);
+  const float right = area.high.x - look.px(68);
+  ImGui::SetCursorScreenPos(ImVec2(right, area.low.y + look.px(6)));
+  if (draw_button(context, "notice.close", "Close", {"Takes this message away.", {}}, {.width = 60, .height = 24}))
+    context.sink.emit(action::DismissNotice{});
+  float top = area.low.y + look.px(8);
+  for (std::size_t begin = 0; begin <= notice.size() && top + look.px(20) <= area.high.y;) {
+    const std::size_t end = std::min(notice.find('\n', begin), notice.size());
+    const std::string line = notice.substr(begin, end - begin);
+    const ImVec2 corner(area.low.x + look.px(14), top), low(right - look.px(8), top + look.px(20));
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::Dummy(ImVec2(std::max(1.0F, low.x - corner.x), look.px(20)));
+    // The whole of a line that is cut short.
+    finish_item(context, "notice." + std::to_string(begin), {line, {}});
+    draw_text(corner, low, look.ink, line);
+    top += look.px(20);
+    begin = end + 1;
+  }
 }
 
 } // namespace oversketch

@@ -20,7 +20,7 @@ WindowLayout lay_out_window(const LayoutWish& wish) {
   const float status = std::min(h - menu, px(24));
   const float bottom = h - status;
   const float tabs = wish.tabs ? std::min(bottom - menu, px(30)) : 0;
-  const float offer = wish.offer ? std::min(bottom - menu - tabs, px(36)) : 0;
+  const float offer = std::min(bottom - menu - tabs, px(wish.offer));
   out.strip_columns = bottom - menu < px(kLowStrip) ? 2 : 1;
   const float strip = std::min(w, px(out.strip_columns == 2 ? 70 : out.narrow ? 40 : 52));
   float side = 0;

@@ -17,7 +17,7 @@ struct Area {
 struct WindowLayout {
   Area menu;
   Area tabs;
-  /// Over the canvases: what earlier runs left behind; empty where nothing is offered.
+  /// Over the canvases: what could not be opened, or what earlier runs left behind; empty where there is neither.
   Area offer;
   Area strip;
   Area canvases;
@@ -39,7 +39,8 @@ struct LayoutWish {
   bool side = true;
   bool side_over = false;
   bool tabs = true;
-  bool offer = false;
+  /// Height of what stands over the canvases, design pixels.
+  float offer = 0;
 };
 
 /// Below this width (design pixels) the side panel does not stand beside the canvases.

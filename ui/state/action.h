@@ -143,6 +143,8 @@ struct ShowWindow {
   Window window = Window::kShortcuts;
   bool shown = true;
 };
+/// What could not be opened has been read.
+struct DismissNotice {};
 /// A line for the status bar: why nothing happened.
 struct Say {
   std::string text;
@@ -159,7 +161,7 @@ class Action
                           action::Recover, action::LeaveRecovered, action::DiscardRecovered, action::PickTool,
                           action::SetOverlays, action::SetPreferences, action::SetView, action::Fit, action::ZoomBy,
                           action::ZoomTo, action::SetSplit, action::SetCompare, action::HoldBefore, action::SelectPin,
-                          action::WantAlternatives, action::ShowWindow, action::Say> {
+                          action::WantAlternatives, action::ShowWindow, action::DismissNotice, action::Say> {
 public:
   using variant::variant;
   Action(const Action& other);

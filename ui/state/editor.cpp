@@ -135,6 +135,7 @@ void Editor::update(const CanvasRects& canvases, double now_s) {
   take_inbox();
   for (Tab& tab : state_.tabs)
     watch_tab(tab);
+  recover_waiting();
   advance_leaving();
   if (Tab* tab = state_.tab()) {
     for (const Side side : {Side::kSource, Side::kTarget})
@@ -171,7 +172,7 @@ void Editor::watch_tab(Tab& tab) {
 
 bool Editor::busy() const {
   const auto works = [](const auto& session) { return session->activity().busy; };
-  return running_ > 0 || searching_ || std::ranges::any_of(state_.tabs, works, &Tab::session) ||
+  return running_ > 0 || searching_ || !waiting_.empty() || std::ranges::any_of(state_.tabs, works, &Tab::session) ||
          std::ranges::any_of(closed_, works, &Closed::session);
 }
 
@@ -272,6 +273,7 @@ void Editor::perform_window(const Action& action) {
                    if (a.window == action::Window::kPreferences) state_.show_preferences = a.shown;
                    if (a.window == action::Window::kAbout) state_.show_about = a.shown;
                  },
+                 [&](const action::DismissNotice&) { state_.notice.clear(); },
                  [&](const action::Say& a) { say(a.text); },
                  [](const auto&) {},
              },

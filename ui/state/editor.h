@@ -77,6 +77,8 @@ private:
     Hash source;
     Hash target;
     bool saving = false;
+    /// The project that is being opened in it; empty once it is there.
+    std::filesystem::path coming;
     std::shared_ptr<SessionJournal> journal;
     /// Of the tab's path; none where another window has it.
     std::optional<FileClaim> claim;
@@ -124,6 +126,10 @@ private:
   void search_lost_work();
   void take_lost_work(std::vector<AbandonedJournal> found);
   void recover(std::size_t index);
+  /// Those of what is to be recovered whose files are no longer being opened.
+  void recover_waiting();
+  bool is_opening(const std::filesystem::path& project) const;
+  void recover_now(const RecoveredWork& work);
   /// Closes the tab that has the project open as it was saved, for one with newer work on it.
   /// @returns the tab's hold on the file; none where there is no such tab, or something has been done in it.
   std::optional<FileClaim> take_over(const std::filesystem::path& project);
@@ -134,6 +140,9 @@ private:
   bool ask_to_replace(const std::filesystem::path& path, Action again);
   /// Says in the middle of the window that a file was not written, and offers to write another.
   void tell_failure(const std::string& title, const Error& error, const std::string& elsewhere, Action again);
+
+  /// Says over the canvases that a file was not opened; work goes on meanwhile.
+  void tell_unopened(const std::filesystem::path& path, const Error& error);
 
   void take_inbox();
   void watch_tab(Tab& tab);
@@ -158,6 +167,8 @@ private:
   std::vector<Closed> closed_;
   /// Earlier runs' work is being looked for, or thrown away.
   bool searching_ = false;
+  /// To be recovered once the tabs that open the same files have them.
+  std::vector<RecoveredWork> waiting_;
   std::jthread janitor_;
 };
 

@@ -88,9 +88,10 @@ void Editor::open(const fs::path& path, bool remember) {
     return request_file(FileRequest::For::kOpen, tab != nullptr ? tab->folder : fs::path());
   }
   state_.file_request.reset();
+  state_.notice.clear();
   const fs::path file = made_absolute(path);
   for (std::size_t i = 0; i < state_.tabs.size(); ++i)
-    if (state_.tabs[i].path == file) {
+    if (state_.tabs[i].path == file || memories_[state_.tabs[i].id].coming == file) {
       state_.front = i;
       return say(file.filename().string() + " is open already");
     }
@@ -100,6 +101,7 @@ void Editor::open(const fs::path& path, bool remember) {
   tab.folder = remember ? file.parent_path() : fs::path();
   const auto opened = std::make_shared<OpenedFile>();
   const bool project = kind_of_file(file) == FileKind::kProject;
+  if (project) memories_[tab.id].coming = file;
   const auto claim = std::make_shared<std::optional<FileClaim>>();
   const auto job = [=, journal = memories_[tab.id].journal, folder = setup_.state_folder,
                     limits = io_limits()](Session& session, const Watch& watch) -> Result<void> {
@@ -117,8 +119,10 @@ void Editor::open(const fs::path& path, bool remember) {
   const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
     if (!result) {
       editor.say(result.error());
+      editor.tell_unopened(file, result.error());
       return editor.remove_tab(*editor.index_of(id));
     }
+    editor.memories_[id].coming.clear();
     Tab& done = *editor.find_tab(id);
     done.read_only = opened->read_only;
     if (project) done.path = file;
@@ -156,14 +160,16 @@ void Editor::add_source(const fs::path& path) {
   Tab* tab = state_.tab();
   if (path.empty()) return request_file(FileRequest::For::kAddSource, tab != nullptr ? tab->folder : fs::path());
   state_.file_request.reset();
+  state_.notice.clear();
   const bool own_target = path == kTargetName;
   if (tab == nullptr || (is_untouched(*tab) && !own_target)) return open(path);
   const fs::path file = own_target ? path : made_absolute(path);
   const auto job = [file, limits = io_limits()](Session& session, const Watch& watch) {
     return oversketch::add_source(session, file, limits, watch);
   };
-  const auto then = [](Editor& editor, const Result<void>& result) {
-    if (result) editor.state_.tool = Tool::kOutline;
+  const auto then = [file](Editor& editor, const Result<void>& result) {
+    if (!result) return editor.tell_unopened(file, result.error());
+    editor.state_.tool = Tool::kOutline;
   };
   run(*tab, "Adding " + file.filename().string(), job, then);
 }
@@ -172,12 +178,16 @@ void Editor::set_target(const fs::path& path) {
   Tab* tab = state_.tab();
   if (path.empty()) return request_file(FileRequest::For::kSetTarget, tab != nullptr ? tab->folder : fs::path());
   state_.file_request.reset();
+  state_.notice.clear();
   if (tab == nullptr || is_untouched(*tab)) return open(path);
   const fs::path file = made_absolute(path);
   const auto job = [file, limits = io_limits()](Session& session, const Watch& watch) {
     return oversketch::set_target(session, file, limits, watch);
   };
-  run(*tab, "Opening " + file.filename().string(), job, {});
+  const auto then = [file](Editor& editor, const Result<void>& result) {
+    if (!result) editor.tell_unopened(file, result.error());
+  };
+  run(*tab, "Opening " + file.filename().string(), job, then);
 }
 
 bool Editor::ask_to_replace(const fs::path& path, Action again) {
@@ -198,6 +208,13 @@ void Editor::tell_failure(const std::string& title, const Error& error, const st
   question.text = error.where.empty() ? error.sentence : error.where + ": " + error.sentence;
   question.answers = {{"elsewhere", elsewhere, {std::move(again)}, true}, {"cancel", "Close", {}, false}};
   state_.question = std::move(question);
+}
+
+void Editor::tell_unopened(const fs::path& path, const Error& error) {
+  if (error.code == cancelled().code) return;
+  const bool named = error.where.empty() || fs::path(error.where) == path;
+  state_.notice += (state_.notice.empty() ? "" : "\n") + path.filename().string() +
+                   " is not opened: " + (named ? error.sentence : to_line(error));
 }
 
 void Editor::save(Tab& tab) {

@@ -3,6 +3,7 @@
 #include "ui/state/editor_inbox.h"
 #include "ui/state/recovered_work.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace oversketch {
@@ -35,7 +36,32 @@ void Editor::recover(std::size_t index) {
   if (index >= state_.recovered.size()) return;
   const RecoveredWork work = state_.recovered[index];
   state_.recovered.erase(state_.recovered.begin() + static_cast<std::ptrdiff_t>(index));
+  waiting_.push_back(work);
+  recover_waiting();
+}
+
+void Editor::recover_waiting() {
+  for (std::size_t i = 0; i < waiting_.size();) {
+    if (is_opening(waiting_[i].project)) {
+      ++i;
+      continue;
+    }
+    const RecoveredWork work = waiting_[i];
+    waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
+    recover_now(work);
+  }
+}
+
+/// Until it rests, what was done in its tab cannot be told.
+bool Editor::is_opening(const fs::path& project) const {
+  return !project.empty() && std::ranges::any_of(state_.tabs, [&](const Tab& tab) {
+    return memories_.at(tab.id).coming == project || (tab.path == project && tab.session->activity().busy);
+  });
+}
+
+void Editor::recover_now(const RecoveredWork& work) {
   Tab& tab = empty_tab();
+  memories_[tab.id].coming = work.project;
   tab.name = work.name;
   tab.folder = work.project.parent_path();
   const auto said = std::make_shared<std::string>();
@@ -54,6 +80,7 @@ void Editor::recover(std::size_t index) {
   };
   const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
     if (result) {
+      editor.memories_[id].coming.clear();
       if (!*claim) *claim = editor.take_over(work.project);
       Tab& recovered = *editor.find_tab(id);
       recovered.path = work.project;

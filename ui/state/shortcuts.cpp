@@ -98,6 +98,7 @@ void read_keys(const InputEvents& events, bool keyboard_taken, const EntryContex
   for (const InputEvent& event : events) {
     const bool repeat = event.kind == InputEvent::Kind::kKeyRepeat;
     if (event.kind != InputEvent::Kind::kKeyDown && !repeat) continue;
+    if (event.key == Key::kF10 && event.modifiers == Modifiers()) context.flags.menu_wanted = Menu::kFile;
     const Entry* entry = find_entry(event.key, event.modifiers);
     if (entry == nullptr || entry->canvas_key || (repeat && !repeats(*entry))) continue;
     if (is_enabled(*entry, context)) entry->act(context);
@@ -156,6 +157,7 @@ std::span<const KeyHelp> canvas_keys() {
       KeyHelp{"Space, middle button", "Pan while it is held"},
       KeyHelp{"Wheel", "Zoom about the pointer (or scroll: Preferences)"},
       KeyHelp{"Esc", "Give up what is in hand"},
+      KeyHelp{"F10", "Open the menus; arrows move, Enter chooses, Esc leaves"},
       KeyHelp{"Enter", "Finish what is in hand"},
       KeyHelp{"X", "While drawing over a curve: replace the other side"},
       KeyHelp{"Alt", "While drawing over a curve: sharp joins"},

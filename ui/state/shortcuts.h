@@ -11,6 +11,8 @@
 
 namespace oversketch {
 
+enum class Menu { kFile, kEdit, kLayer, kView, kHelp, kTool };
+
 /// What the window itself shows or hides; neither the editor's nor a document's.
 struct WindowFlags {
   /// Beside the canvases where the window is wide enough; in a narrow one over them, and only when asked for.
@@ -20,6 +22,8 @@ struct WindowFlags {
   /// The layer whose name is being typed.
   std::optional<LayerId> renaming;
   bool rename_starts = false;
+  /// The menu that the keyboard opens.
+  std::optional<Menu> menu_wanted;
   /// The canvas under the pointer.
   std::optional<Side> under_pointer;
 
@@ -41,8 +45,6 @@ struct Chord {
   Modifiers modifiers;
   bool operator==(const Chord&) const = default;
 };
-
-enum class Menu { kFile, kEdit, kLayer, kView, kHelp, kTool };
 
 /// One thing that a menu, a key or both can ask for.  This table is all there is: menus, keys, tips and the shortcut
 /// window read it.

@@ -51,7 +51,7 @@ Dialog::Dialog(const DrawContext& context, std::string_view id, std::string_view
 
 Dialog::~Dialog() {
   ImGui::Dummy(ImVec2(1, context_.look.px(6)));
-  const float height = ImGui::GetCursorPosY() + ImGui::GetScrollY() + context_.look.px(4);
+  const float height = ImGui::GetCursorPosY() + context_.look.px(4);
   ImGui::EndChild();
   if (auto_height_) {
     float& remembered = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("##height"), 0);

@@ -3,9 +3,7 @@
 // Dear ImGui 1.86, 1.90 and 1.92 under one set of names: what moved between them, and nothing else.
 
 #include <imgui.h>
-#if IMGUI_VERSION_NUM < 19100
 #include <imgui_internal.h>
-#endif
 
 #include <cstdint>
 
@@ -72,6 +70,33 @@ inline void begin_switches() {
 }
 inline void end_switches() {
   ImGui::PopItemFlag();
+}
+
+/// In the next frame the arrow keys move among the items of a menu or popup, and Enter chooses; or they do not.
+inline void let_keys_move(bool yes) {
+  ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+  flags = yes ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+/// To be called before a frame begins, after the backend's own part: in Dear ImGui 1.86 Enter opens fields alone.
+inline void let_enter_choose() {
+#if IMGUI_VERSION_NUM < 18700
+  ImGuiIO& io = ImGui::GetIO();
+  const int enter = io.KeyMap[ImGuiKey_Enter];
+  const bool down = (io.ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0 && enter >= 0 && io.KeysDown[enter];
+  io.NavInputs[ImGuiNavInput_Activate] = down ? 1.0F : 0.0F;
+#endif
+}
+/// What an arrow key would have moved in this frame stays where it is.
+inline void drop_key_move() {
+  ImGui::NavMoveRequestCancel();
+}
+/// Where the keys are is shown although none has moved yet.
+inline void show_keyboard_cursor() {
+#if IMGUI_VERSION_NUM < 19100
+  ImGui::GetCurrentContext()->NavDisableHighlight = false;
+#elif IMGUI_VERSION_NUM >= 19140
+  ImGui::SetNavCursorVisible(true);
+#endif
 }
 
 /// Whether a key went down in this frame, for keys that Dear ImGui 1.86 has names for.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace oversketch {
 namespace {
 
@@ -22,6 +24,17 @@ TEST_F(EditorTest, what_cannot_be_opened_is_said_and_leaves_no_tab) {
   EXPECT_NE(state().said.find("bad.jsonl:2"), std::string::npos) << state().said;
   EXPECT_TRUE(state().tabs.empty());
   EXPECT_FALSE(kept_);
+  EXPECT_EQ(state().notice.substr(0, 27), "bad.jsonl is not opened: ba") << "until the next is opened";
+  editor_.perform_all(
+      {action::Open{folder_ / "text.png"}, action::Open{folder_ / "missing.png"}, action::Open{picture("good.png")}});
+  settle();
+  EXPECT_EQ(state().tabs.size(), 1U);
+  EXPECT_EQ(std::ranges::count(state().notice, '\n'), 1) << state().notice;
+  does(action::AddSource{folder_ / "text.png"});
+  EXPECT_EQ(state().notice.find("text.png is not opened: "), 0U) << state().notice;
+  EXPECT_EQ(state().tabs.size(), 1U);
+  does(action::DismissNotice{});
+  EXPECT_TRUE(state().notice.empty());
 }
 
 TEST_F(EditorTest, actions_without_a_document_do_nothing) {

@@ -38,6 +38,9 @@ protected:
       return std::holds_alternative<action::Execute>(a) || std::holds_alternative<action::PickTool>(a);
     });
   }
+  static bool comes_of_looking(const Action& action) {
+    return std::holds_alternative<action::WantAlternatives>(action) || std::holds_alternative<action::SetView>(action);
+  }
   EditorState state;
   WindowState window;
 };
@@ -228,6 +231,83 @@ TEST(PanelSources, DrawNoBareItems) {
         EXPECT_LT(registered - found, 900U) << entry.path() << ": " << source.substr(found, 60);
       }
   }
+}
+
+TEST_F(WholeWindow, MenusAreMovedInByTheKeyboard) {
+  open_document();
+  show_window();
+  take();
+  const auto chosen = [&] {
+    auto actions = take();
+    std::erase_if(actions, comes_of_looking);
+    return actions;
+  };
+  const auto hit = [&](ImGuiKey key, Key named) {
+    events = {key_event(named)};
+    press(key);
+    frame();
+  };
+  events = {key_event(Key::kF10)};
+  frame();
+  frame();
+  ASSERT_TRUE(has("menu.file.open"));
+  hit(ImGuiKey_RightArrow, Key::kRight);
+  ASSERT_TRUE(has("menu.edit.undo"));
+  EXPECT_FALSE(has("menu.file.open"));
+  hit(ImGuiKey_LeftArrow, Key::kLeft);
+  ASSERT_TRUE(has("menu.file.open"));
+  EXPECT_TRUE(chosen().empty()) << "nothing is chosen or nudged on the way";
+  hit(ImGuiKey_DownArrow, Key::kDown);
+  hit(ImGuiKey_Enter, Key::kEnter);
+  EXPECT_EQ(chosen().size(), 1U);
+  EXPECT_FALSE(has("menu.file.open"));
+  events = {key_event(Key::kF10)};
+  frame();
+  frame();
+  hit(ImGuiKey_Escape, Key::kEscape);
+  EXPECT_FALSE(has("menu.file.open"));
+  EXPECT_TRUE(chosen().empty());
+  events = {key_event(Key::kRight), key_event(key_of('S')), key_event(key_of('S'), {}, InputEvent::Kind::kKeyUp)};
+  frame();
+  EXPECT_TRUE(changes_something(take())) << "tools have their keys again";
+}
+
+TEST_F(WholeWindow, AMenuOpensBesideThePointerHoweverLowTheWindowIs) {
+  open_document();
+  for (const ImVec2 size : {ImVec2(320, 240), ImVec2(640, 120)}) {
+    ImGui::GetIO().DisplaySize = size;
+    show_window();
+    for (const char* menu : {"menu.file", "menu.edit", "menu.layer", "menu.view", "menu.help"}) {
+      const float bottom = at(menu, 0, 1).y;
+      take();
+      click(menu);
+      frame();
+      for (const Action& action : take())
+        EXPECT_TRUE(comes_of_looking(action)) << menu << " " << action.index();
+      EXPECT_TRUE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) << menu;
+      for (const auto& [name, box] : widgets_.boxes()) {
+        if (name.starts_with(std::string(menu) + ".")) EXPECT_GE(box.y, bottom - 1) << name << " at " << size.y;
+      }
+      press(ImGuiKey_Escape);
+      frame();
+    }
+  }
+}
+
+TEST_F(WholeWindow, WhatIsNotOpenedIsToldOverTheCanvases) {
+  state.notice = "a.png is not opened: it is no picture\nb.png is not opened: there is no such file";
+  for (const bool document : {false, true}) {
+    if (document) open_document();
+    show_window();
+    EXPECT_TRUE(has("panel.notice"));
+    EXPECT_GE(at(document ? "canvas.target" : "panel.empty", 0, 0).y, at("panel.notice", 0, 1).y);
+    take();
+    click("notice.close");
+    take_one<action::DismissNotice>();
+  }
+  state.notice.clear();
+  frame();
+  EXPECT_FALSE(has("panel.notice"));
 }
 
 } // namespace

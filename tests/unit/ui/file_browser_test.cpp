@@ -291,5 +291,33 @@ TEST_F(Browser, SmallWindowsKeepListAndAnswersInReach) {
   EXPECT_TRUE(has("browser.list"));
 }
 
+TEST_F(Browser, APathIsTypedWithoutGoingToItsField) {
+  ask(For::kOpen, root() / "more");
+  open_window();
+  frame();
+  const std::string path = (root() / "pictures").string();
+  type(path.substr(0, 1).c_str());
+  for (int i = 0; i < 3; ++i)
+    frame();
+  ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+  type(path.substr(1).c_str());
+  EXPECT_EQ(browser.path_text, path);
+  press(ImGuiKey_Enter);
+  settle();
+  EXPECT_EQ(browser.folder(), root() / "pictures");
+}
+
+TEST_F(Browser, APathIsPastedIntoItsField) {
+  ask(For::kOpen, root() / "more");
+  open_window();
+  frame();
+  ImGui::SetClipboardText(" ~/sea.png\nmore");
+  events = {key_event(key_of('V'), {.ctrl = true})};
+  frame();
+  frame();
+  EXPECT_EQ(browser.path_text, "~/sea.png");
+  EXPECT_FALSE(browser.begin_path("sea.png")) << "letters go to a name";
+}
+
 } // namespace
 } // namespace oversketch

@@ -38,7 +38,8 @@ protected:
     int width = 0, height = 0;
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
 #if IMGUI_VERSION_NUM < 18700
-    for (const ImGuiKey key : {ImGuiKey_Escape, ImGuiKey_Enter, ImGuiKey_Tab, ImGuiKey_Backspace})
+    for (const ImGuiKey key : {ImGuiKey_Escape, ImGuiKey_Enter, ImGuiKey_Tab, ImGuiKey_Backspace, ImGuiKey_Space,
+                               ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
       io.KeyMap[key] = static_cast<int>(key) + 1;
 #endif
     look_ = make_look(Theme::kDark, scale);
@@ -59,6 +60,7 @@ protected:
   void frame(double seconds = 1.0 / 60) {
     now_s_ += seconds;
     ImGui::GetIO().DeltaTime = static_cast<float>(seconds);
+    compat::let_enter_choose();
     ImGui::NewFrame();
     widgets_.clear();
     reply_ = {};

@@ -268,5 +268,22 @@ TEST(LostWork, is_told_by_the_clock_on_the_wall) {
   EXPECT_EQ(before(7 * 24), "5 March 2026");
 }
 
+TEST_F(Recovery, waits_for_its_project_where_that_is_still_being_opened) {
+  const fs::path file = folder_ / "work.ora";
+  {
+    Program run(state_);
+    run.does(action::Open{picture("sea.png", 60)});
+    run.does(action::AddSource{std::string(kTargetName)});
+    run.does(action::SaveAs{file});
+    run.does(action::Execute{LayerRename{{}, "newer"}});
+  }
+  Program run(state_);
+  run.editor.perform_all({action::Open{file}, action::Open{file}, action::Recover{0}});
+  run.settle();
+  ASSERT_EQ(run.state().tabs.size(), 1U) << "nor is it opened twice";
+  EXPECT_EQ(run.snapshot()->document.layers[0].name, "newer");
+  EXPECT_FALSE(run.state().tab()->read_only);
+}
+
 } // namespace
 } // namespace oversketch

@@ -25,7 +25,7 @@ TEST(WindowLayout, CoversTheWindowWithoutOverlap) {
       for (const bool side : {false, true}) {
         for (const bool tabs : {false, true}) {
           const WindowLayout out =
-              lay_out_window({.size = size, .scale = scale, .side = side, .tabs = tabs, .offer = tabs});
+              lay_out_window({.size = size, .scale = scale, .side = side, .tabs = tabs, .offer = tabs ? 36.0F : 0.0F});
           const std::vector<Area> parts = {out.menu,     out.tabs, out.offer, out.strip,
                                            out.canvases, out.side, out.status};
           float sum = 0;
