@@ -45,6 +45,7 @@ Result<Json> render(const RenderArguments& options, const IoLimits& limits, cons
   const bool is_project = std::filesystem::path(options.source).extension() == ".ora";
   auto session = is_project ? open_project(options.source, limits, watch) : replay(options.source, limits, watch);
   if (!session) return session.error();
+  session->limit_memory(limits.memory_bytes);
   const auto picture = session->composite(watch);
   if (!picture) return picture.error();
   if (auto saved = save_image(*picture, options.out, options.depth == 16 ? BitDepth::k16 : BitDepth::k8); !saved)

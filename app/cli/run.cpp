@@ -16,6 +16,7 @@ Result<Json> run(const RunArguments& options, const IoLimits& limits, const Watc
   const std::filesystem::path script(options.script);
   const std::filesystem::path folder = script.has_parent_path() ? script.parent_path() : std::filesystem::path(".");
   Session session;
+  session.limit_memory(limits.memory_bytes);
   const std::filesystem::path out = options.out.empty() ? folder : std::filesystem::path(options.out);
   const auto summary = run_script_file(session, script, out, watch, limits);
   if (!summary) return summary.error();

@@ -79,8 +79,13 @@ public:
   void mark_saved() { history_.mark_saved(); }
   /// From the next step on.
   void limit_history(const History::Limits& limits) { history_.set_limits(limits); }
-  /// Takes over the document, history and log of another session; the counters add up, the limits of the history stay
-  /// this one's.
+  /// What drawing one layer may take, kLayerPixelBytes for each pixel of its box: from then on a larger one is refused
+  /// with warp.too-large before anything is allocated.
+  void limit_memory(std::size_t bytes) { memory_bytes_ = bytes; }
+  static constexpr std::size_t kMemoryBytes = std::size_t{8} << 30;
+  /// 16 for the warped source, 40 for what is solved on every pixel (MultigridSolve).
+  static constexpr std::size_t kLayerPixelBytes = 56;
+  /// Takes over the document, history and log of another session; the counters add up, the limits stay this one's.
   void adopt(Session other);
 
   /// What a project file needs; solving it anew gives the same bits.  @cost O(steps kept); pictures are shared.
@@ -172,6 +177,7 @@ private:
   Counters counters_;
   std::vector<Step> log_;
   std::uint64_t log_number_ = 0;
+  std::size_t memory_bytes_ = kMemoryBytes;
   /// By the id of the history entry.
   std::map<std::uint64_t, Solves> solves_;
   std::unique_ptr<Caches> caches_;

@@ -64,6 +64,7 @@ Result<std::shared_ptr<const LayerShape>> Session::shape_of(const Layer& layer, 
       WarpOptions options = warp_options(layer);
       // More hardly pays beside the memory's speed.
       options.threads = watch.threads_up_to(2);
+      options.most_pixels = static_cast<std::int64_t>(memory_bytes_ / kLayerPixelBytes);
       // All shapes are made above, not const, and nobody sees this one any more.
       const auto dropped = std::const_pointer_cast<LayerShape>(caches_->shapes.drop_last());
       auto warped = warp_region(source_of(layer), *(*deformed)->mesh, transformed((*deformed)->positions, place), *mask,

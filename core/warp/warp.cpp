@@ -19,12 +19,15 @@ constexpr int kNowhere = -1;
 /// Rows that one thread takes at a time.
 constexpr int kBandRows = 64;
 
-Result<Rect> region_rect(const Image& source, const Mask& mask) {
+Result<Rect> region_rect(const Image& source, const Mask& mask, std::int64_t most_pixels = kMaxWarpPixels) {
   if (mask.empty()) return Error{"warp.empty-mask", "The deformed region covers no pixel: make it larger.", ""};
   if (source.empty()) return Error{"warp.empty-source", "The source picture has no pixels.", ""};
   const Rect rect = grown(mask.bounds(), 1);
-  if (static_cast<std::int64_t>(rect.width) * rect.height > kMaxWarpPixels)
-    return Error{"warp.too-large", "The deformed region is too large to be drawn: make it smaller.", ""};
+  if (static_cast<std::int64_t>(rect.width) * rect.height > std::min(most_pixels, kMaxWarpPixels))
+    return Error{"warp.too-large",
+                 "The deformed region is " + std::to_string(rect.width) + " by " + std::to_string(rect.height) +
+                     " pixels large, more than there may be memory for: make it smaller.",
+                 ""};
   return rect;
 }
 
@@ -152,7 +155,7 @@ Result<WarpedRegion> warp_region(const ImagePyramid& source, const QuadMesh& mes
                                  const WarpOptions& options, Raster<Rgba> spare) {
   const StageTimer timer(watch.times, "warp");
   check_mesh(mesh, deformed);
-  const Result<Rect> rect = region_rect(source.image(), mask);
+  const Result<Rect> rect = region_rect(source.image(), mask, options.most_pixels);
   if (!rect) return rect.error();
   if (const Result<void> good = check_vertices(deformed); !good) return good.error();
   if (watch.stopped()) return cancelled();

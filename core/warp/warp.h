@@ -21,11 +21,16 @@ enum class Sampling {
 };
 
 /// None of them but `sampling` changes the result by a bit.
+/// Largest rect that is drawn, pixels (16 bytes each).
+inline constexpr std::int64_t kMaxWarpPixels = 200'000'000;
+
 struct WarpOptions {
   Sampling sampling = Sampling::kBilinear;
   /// How many threads may draw; 1 or less: the calling one alone.
   int threads = 1;
   Simd simd = Simd::kBest;
+  /// Largest rect that is drawn; never more than kMaxWarpPixels.
+  std::int64_t most_pixels = kMaxWarpPixels;
 };
 
 /// Draws a deformed mesh: texture mapping of `source` into the pixels of `mask`, each of them once.
@@ -53,8 +58,9 @@ struct WarpOptions {
 /// @param spare          a raster that is not needed any more: the result is drawn into its memory where it fits.
 /// @returns rect = mask.bounds() grown by 1; the mask's pixels and their eight neighbours are drawn, all others are
 ///   {0, 0, 0, 0}.
-/// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than kMaxWarpPixels in the rect); warp.not-finite
-/// and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell (no cell covers
+/// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than options.most_pixels in the rect);
+/// warp.not-finite and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell
+/// (no cell covers
 ///   any pixel of the rect); cancelled.
 /// @cost on one busy core at 16-px quads, into the memory of `spare` (without it 2 to 4 ns more), ns a pixel: bilinear
 /// 8 with AVX2 and 11 without, bicubic 13 and 19, shrunk to a third 45; 10, 14, 14, 19 and 45 where source and region
@@ -71,8 +77,5 @@ Result<WarpedRegion> unwarped_region(const Image& source, const Mask& mask);
 
 /// The mask's pixels where the region has alpha above 0.  Pixels outside the region's rect have none.
 Mask opaque_part(const WarpedRegion& region, const Mask& mask);
-
-/// Largest rect that is drawn, pixels (16 bytes each).
-inline constexpr std::int64_t kMaxWarpPixels = 200'000'000;
 
 } // namespace oversketch

@@ -124,6 +124,16 @@ TEST_F(CommandLine, refuses_bad_input_and_writes_nothing) {
                "{\"oversketch_script\": 1}\n{\"do\": \"document.new\", \"width\": 300, \"height\": 300}\n");
   refused("run large.jsonl --memory 1", "image.too-large");
   refused("render large.jsonl --out out.png --memory 1", "image.too-large");
+  const std::string scaled = R"({"oversketch_script": 1}
+{"do": "document.new", "target": "source.png"}
+{"do": "layer.add", "source": "source.png"}
+{"do": "region.set", "outline": [[10, 10], [50, 10], [50, 40], [10, 40]]}
+{"do": "layer.transform", "scale": 80}
+)";
+  folder.write("scaled.jsonl", scaled);
+  refused("render scaled.jsonl --out out.png --memory 100", "warp.too-large");
+  folder.write("scaled.jsonl", scaled + "{\"do\": \"export\", \"path\": \"out.png\"}\n");
+  refused("run scaled.jsonl --memory 100", "warp.too-large");
   fs::create_directory(folder / "empty");
   refused("evaluate empty", "evaluate.no-cases");
   const std::string clone = "clone --source source.png --target target.png --out out.png ";

@@ -152,6 +152,8 @@ void step(Input& in, Session& session, History& fast, bool is_fast) {
 
 void run(Input in) {
   Session session;
+  // Layers can be scaled without bounds.
+  session.limit_memory(std::size_t{256} << 20);
   History history;
   // Every fourth input is solved and painted as well, which costs a hundred times as much.
   const bool fast = in.below(4) != 0;

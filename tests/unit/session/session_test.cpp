@@ -71,6 +71,22 @@ TEST(Session, refuses_a_region_that_cannot_be_meshed_and_stays_as_it_was) {
   EXPECT_EQ(large.document().layers[0].settings.cell_px, 10);
 }
 
+TEST(Session, a_layer_takes_no_more_memory_than_it_may) {
+  Session session;
+  run(session, new_document(100, 100));
+  run(session, LayerAdd{loaded_ref("s.png", wavy_image(100, 100, 1)), {}});
+  run(session, RegionSet{{}, blob({50, 50}, 40)});
+  const auto box = session.layer_pixels(LayerId{1}).value().rect;
+  const std::size_t pixels = static_cast<std::size_t>(box.width + 2) * static_cast<std::size_t>(box.height + 2);
+  session.limit_memory(pixels * Session::kLayerPixelBytes);
+  EXPECT_TRUE(session.composite().ok());
+  run(session, LayerTransform{{}, 0, 1.1, {}});
+  EXPECT_EQ(session.composite().error().code, "warp.too-large");
+  EXPECT_EQ(session.composite().error().where, "layer L1");
+  session.limit_memory(2 * pixels * Session::kLayerPixelBytes);
+  EXPECT_TRUE(session.composite().ok());
+}
+
 /// What an edit redoes, held by the counters.
 struct Work {
   std::int64_t meshings, symbolic, numeric, matches, masks, solves;
