@@ -2,6 +2,7 @@
 
 #include "core/clone/guidance.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -80,8 +81,9 @@ void judge_exactly(const std::array<float*, 3>& out, PixelPlanes p, PixelPlanes 
   }
 }
 
-OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict green, float* __restrict blue,
-                                    PixelPlanes p, PixelPlanes q, std::size_t count) {
+/// @returns whether float cannot tell of some of the pairs.
+OVERSKETCH_INLINE bool surplus_block(float* __restrict red, float* __restrict green, float* __restrict blue,
+                                     PixelPlanes p, PixelPlanes q, std::size_t count) {
   const float *p0 = p.first, *p1 = p0 + p.stride, *p2 = p1 + p.stride, *p3 = p2 + p.stride, *p4 = p3 + p.stride,
               *p5 = p4 + p.stride;
   const float *q0 = q.first, *q1 = q0 + q.stride, *q2 = q1 + q.stride, *q3 = q2 + q.stride, *q4 = q3 + q.stride,
@@ -101,7 +103,18 @@ OVERSKETCH_INLINE void surplus_body(float* __restrict red, float* __restrict gre
     green[i] = keep * (t1 - s1);
     blue[i] = keep * (t2 - s2);
   }
-  if (doubtful != 0) judge_exactly({red, green, blue}, p, q, count);
+  return doubtful != 0;
+}
+
+OVERSKETCH_INLINE void surplus_body(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {
+  // Doubtful pairs are rare, a row without one is rarer.
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, count - begin);
+    float *const red = out + begin, *const green = red + stride, *const blue = green + stride;
+    const PixelPlanes from{p.first + begin, p.stride}, to{q.first + begin, q.stride};
+    if (surplus_block(red, green, blue, from, to, size)) judge_exactly({red, green, blue}, from, to, size);
+  }
 }
 
 OVERSKETCH_INLINE void add_pairs_body(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,
@@ -144,7 +157,7 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
     return largest_body(values, count);                                                                                \
   }                                                                                                                    \
   target void surplus_##name(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {        \
-    surplus_body(out, out + stride, out + 2 * stride, p, q, count);                                                    \
+    surplus_body(out, stride, p, q, count);                                                                            \
   }                                                                                                                    \
   target void add_pairs_##name(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,       \
                                const float* down, std::size_t down_stride, std::size_t count) {                        \
