@@ -24,6 +24,13 @@ OVERSKETCH_INLINE void relax_zero_body(float* __restrict u, const float* b, std:
     u[i] = b[i] * inverse;
 }
 
+OVERSKETCH_INLINE void eliminate_body(float* __restrict r, const float* b, const GridNeighbours& at, std::size_t count,
+                                      float inverse) {
+  const float *w = at.west, *e = at.east, *n = at.north, *s = at.south;
+  for (std::size_t i = 0; i < count; ++i)
+    r[i] = b[i] + ((w[i] + e[i]) + (n[i] + s[i])) * inverse;
+}
+
 OVERSKETCH_INLINE void residual_body(float* __restrict r, const float* b, const float* u, const GridNeighbours& at,
                                      std::size_t count, float extra) {
   const float *w = at.west, *e = at.east, *n = at.north, *s = at.south;
@@ -36,6 +43,12 @@ OVERSKETCH_INLINE void residual_body(float* __restrict r, const float* b, const 
 OVERSKETCH_INLINE void add_half_body(float* __restrict u, const float* p, const float* q, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     u[i] += 0.5f * (p[i] + q[i]);
+}
+
+OVERSKETCH_INLINE void start_half_body(float* __restrict u, const float* b, const float* p, const float* q,
+                                       std::size_t count, float inverse) {
+  for (std::size_t i = 0; i < count; ++i)
+    u[i] = b[i] * inverse + 0.5f * (p[i] + q[i]);
 }
 
 OVERSKETCH_INLINE void weigh_body(float* __restrict out, const float* middle, const float* above, const float* below,
@@ -142,12 +155,19 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
   target void relax_zero_##name(float* u, const float* b, std::size_t count, float inverse) {                          \
     relax_zero_body(u, b, count, inverse);                                                                             \
   }                                                                                                                    \
+  target void eliminate_##name(float* r, const float* b, const GridNeighbours& at, std::size_t count, float inverse) { \
+    eliminate_body(r, b, at, count, inverse);                                                                          \
+  }                                                                                                                    \
   target void residual_##name(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count,   \
                               float extra) {                                                                           \
     residual_body(r, b, u, at, count, extra);                                                                          \
   }                                                                                                                    \
   target void add_half_##name(float* u, const float* p, const float* q, std::size_t count) {                           \
     add_half_body(u, p, q, count);                                                                                     \
+  }                                                                                                                    \
+  target void start_half_##name(float* u, const float* b, const float* p, const float* q, std::size_t count,           \
+                                float inverse) {                                                                       \
+    start_half_body(u, b, p, q, count, inverse);                                                                       \
   }                                                                                                                    \
   target void weigh_##name(float* out, const float* middle, const float* above, const float* below,                    \
                            std::size_t count) {                                                                        \
@@ -166,9 +186,9 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
   target bool are_finite_##name(const float* values, std::size_t count) {                                              \
     return are_finite_body(values, count);                                                                             \
   }                                                                                                                    \
-  constexpr GridKernels k_##name = {                                                                                   \
-      relax_##name,   relax_zero_##name, residual_##name,  add_half_##name,  weigh_##name,                             \
-      largest_##name, surplus_##name,    add_pairs_##name, are_finite_##name};
+  constexpr GridKernels k_##name = {relax_##name,    relax_zero_##name, eliminate_##name, residual_##name,             \
+                                    add_half_##name, start_half_##name, weigh_##name,     largest_##name,              \
+                                    surplus_##name,  add_pairs_##name,  are_finite_##name};
 
 OVERSKETCH_KERNELS(plain, )
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -29,10 +29,15 @@ struct GridKernels {
   void (*relax)(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
   /// The same with neighbours of 0.
   void (*relax_zero)(float* u, const float* b, std::size_t count, float inverse);
+  /// r = b + (w + e + n + s) · inverse, the neighbours those of b: what is left where u = 0 when u = b · inverse beside
+  /// it.
+  void (*eliminate)(float* r, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
   /// r = b + (w − u) + (e − u) + (n − u) + (s − u) − extra u: accurate where u is smooth.
   void (*residual)(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count, float extra);
   /// u += (p + q) / 2
   void (*add_half)(float* u, const float* p, const float* q, std::size_t count);
+  /// u = b · inverse + (p + q) / 2
+  void (*start_half)(float* u, const float* b, const float* p, const float* q, std::size_t count, float inverse);
   /// out_i = middle_i + (above_i + below_i + above_{i + 1} + below_{i + 1}) / 4, i + 1 the next slot.
   void (*weigh)(float* out, const float* middle, const float* above, const float* below, std::size_t count);
   /// The largest |value|, at least 0; not-a-number is passed over.

@@ -88,8 +88,7 @@ const std::vector<GridPiece>& GridRows::pieces(int row) {
 
 /// Calls work(slot, neighbours, floats) for stretches of one colour, a missing neighbour standing as zeros.
 template <class Work>
-void GridRows::for_cells(int row, int colour, Work work) {
-  const float* const u = values_.u;
+void GridRows::for_cells(const float* u, int row, int colour, Work work) {
   for (const GridPiece& piece : pieces(row)) {
     const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(colour)];
     if (cells.count == 0) continue;
@@ -120,7 +119,7 @@ void GridRows::for_irregular(int row, int colour, Work work) const {
 }
 
 void GridRows::relax(int row, int colour) {
-  for_cells(row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
+  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
     kernels_.relax(values_.u + at_slot(slot), values_.b + at_slot(slot), at, count, inverse_);
   });
   for_irregular(row, colour, [&](std::size_t at, float scale) {
@@ -130,7 +129,7 @@ void GridRows::relax(int row, int colour) {
 }
 
 void GridRows::relax_from_zero(int row, int colour) {
-  for_cells(row, colour, [&](int slot, const GridNeighbours&, std::size_t count) {
+  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours&, std::size_t count) {
     kernels_.relax_zero(values_.u + at_slot(slot), values_.b + at_slot(slot), count, inverse_);
   });
   for_irregular(row, colour, [&](std::size_t at, float scale) {
@@ -141,43 +140,61 @@ void GridRows::relax_from_zero(int row, int colour) {
 
 void GridRows::inject(int row, const GridLevel& coarse, const float* coarse_u, float factor) {
   if (!has_coarse_nodes(row)) return;
-  const int colour = level_.coarse_colour();
-  for (const GridPiece& piece : pieces(row)) {
-    const GridPiece::Cells& cells = piece.cells[static_cast<std::size_t>(colour)];
-    std::fill_n(values_.u + at_slot(cells.at), at_slot(cells.count), 0.0f);
-  }
-  const int coarse_row = coarse.find_row((level_.y_of(row) - level_.coarse_y) >> 1);
-  if (coarse_row < 0) return;
-  int fine = level_.begin_of(row);
-  for (int run = coarse.begin_of(coarse_row); run < coarse.end_of(coarse_row); ++run) {
-    const int x = 2 * coarse.x0_of(run) + level_.coarse_x;
-    while (level_.x1_of(fine) <= x)
-      ++fine;
-    float* const to = values_.u + at_slot(level_.slot(fine, x));
-    const float* const from = coarse_u + at_slot(coarse.first_of(run));
-    join(from, coarse.x1_of(run) - coarse.x0_of(run), factor, to);
+  const int y = level_.y_of(row), coarse_row = coarse.find_row((y - level_.coarse_y) >> 1);
+  int run = coarse_row < 0 ? 0 : coarse.begin_of(coarse_row);
+  const int end = coarse_row < 0 ? 0 : coarse.end_of(coarse_row);
+  for (int fine = level_.begin_of(row); fine < level_.end_of(row); ++fine) {
+    // The first node of the coarse nodes' colour, and how many there are.
+    const int x0 = level_.x0_of(fine), x1 = level_.x1_of(fine), first = x0 + ((x0 - level_.coarse_x) & 1);
+    if (first >= x1) continue;
+    int at = level_.slot(fine, first);
+    const int after = at + (x1 - first + 1) / 2;
+    const auto clear_until = [&](int slot) { std::fill(values_.u + at_slot(at), values_.u + at_slot(slot), 0.0f); };
+    for (; run < end && 2 * coarse.x0_of(run) + level_.coarse_x < x1; ++run) {
+      const int to = level_.slot(fine, 2 * coarse.x0_of(run) + level_.coarse_x);
+      const int count = coarse.x1_of(run) - coarse.x0_of(run);
+      clear_until(to);
+      join(coarse_u + at_slot(coarse.first_of(run)), count, factor, values_.u + at_slot(to));
+      at = to + count;
+    }
+    clear_until(after);
   }
 }
 
 void GridRows::correct(int row) {
   // Of the four neighbours only those in rows with coarse nodes carry anything.
   const bool level_ones = has_coarse_nodes(row);
-  for_cells(row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
+  for_cells(values_.u, row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
     kernels_.add_half(values_.u + at_slot(slot), level_ones ? at.west : at.north, level_ones ? at.east : at.south,
                       count);
+  });
+}
+
+void GridRows::correct_from_side(int row) {
+  const bool level_ones = has_coarse_nodes(row);
+  for_cells(values_.u, row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
+    kernels_.start_half(values_.u + at_slot(slot), values_.b + at_slot(slot), level_ones ? at.west : at.north,
+                        level_ones ? at.east : at.south, count, inverse_);
   });
 }
 
 const float* GridRows::residual(int row) {
   Residual& cached = residuals_[static_cast<std::size_t>(row) % residuals_.size()];
   if (cached.row == row) return cached.values.data();
-  const int first = level_.first_in(row), colour = level_.coarse_colour();
-  const std::size_t size = at_slot(level_.last_in(row) - first);
+  const std::size_t size = at_slot(level_.last_in(row) - level_.first_in(row));
   if (cached.values.size() < size) cached.values.resize(size);
   cached.row = row;
-  float* const r = cached.values.data();
+  if (is_side_)
+    fill_residual_of_side(row, cached.values.data());
+  else
+    fill_residual(row, cached.values.data());
+  return cached.values.data();
+}
+
+void GridRows::fill_residual(int row, float* r) {
+  const int first = level_.first_in(row), colour = level_.coarse_colour();
   const float extra = level_.diagonal - 4;
-  for_cells(row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
+  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
     const std::size_t k = at_slot(slot);
     kernels_.residual(r + at_slot(slot - first), values_.b + k, values_.u + k, at, count, extra);
   });
@@ -186,7 +203,13 @@ const float* GridRows::residual(int row) {
     for (std::size_t k = 0; k < kC; ++k)
       r[at - at_slot(first) + k] -= surplus * values_.u[at + k];
   });
-  return r;
+}
+
+void GridRows::fill_residual_of_side(int row, float* r) {
+  const int first = level_.first_in(row);
+  for_cells(values_.b, row, level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
+    kernels_.eliminate(r + at_slot(slot - first), values_.b + at_slot(slot), at, count, inverse_);
+  });
 }
 
 float GridRows::largest_residual(int row) {
@@ -235,6 +258,11 @@ void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coars
     kernels_.weigh(line_.data(), middle, above, below, at_slot(length));
     split(line_.data(), length, coarse_b + at_slot(coarse.first_of(run)));
   }
+}
+
+void GridRows::restrict_side_to(const GridLevel& coarse, int coarse_row, float* coarse_b) {
+  is_side_ = true;
+  restrict_to(coarse, coarse_row, coarse_b);
 }
 
 } // namespace oversketch

@@ -39,9 +39,14 @@ public:
   void inject(int row, const GridLevel& coarse, const float* coarse_u, float factor);
   /// Adds the interpolated correction to the other colour; needs what inject wrote in this row and its neighbours.
   void correct(int row);
+  /// The same where the other colour's u is b / diagonal, which need not stand there, and no node is irregular.
+  void correct_from_side(int row);
   /// A row of the coarser grid's b: the residual, fully weighted (Trottenberg, Oosterlee, Schüller 2001, 2.3.3), times
   /// 4 for its unit.  Where the colour that is not the coarse nodes' was relaxed last.
   void restrict_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
+  /// The same where u is 0 on the coarse nodes' colour and b / diagonal on the other; u itself is not read.  An object
+  /// restricts either u or b.
+  void restrict_side_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
   /// Largest |residual| of a row, where the colour that is not the coarse nodes' was relaxed last.
   float largest_residual(int row);
 
@@ -54,12 +59,15 @@ private:
   const std::vector<GridPiece>& pieces(int row);
   /// The residual of the coarse nodes' colour, kGridChannels floats a slot of the row.
   const float* residual(int row);
+  void fill_residual(int row, float* r);
+  void fill_residual_of_side(int row, float* r);
   /// The residuals at x0, x0 + 2, … x1 of the row beside another, 0 where there is none; in `room` if they must be put
   /// together.
   const float* corners(int row, int side, int x0, int x1, std::vector<float>& room);
   bool has_coarse_nodes(int row) const { return ((level_.y_of(row) - level_.coarse_y) & 1) == 0; }
+  /// Neighbours of `values`: of u, or of b.
   template <class Work>
-  void for_cells(int row, int colour, Work work);
+  void for_cells(const float* values, int row, int colour, Work work);
   template <class Work>
   void for_irregular(int row, int colour, Work work) const;
 
@@ -72,6 +80,7 @@ private:
   std::array<std::vector<GridPiece>, 16> pieces_;
   std::array<int, 16> pieces_row_ = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   std::array<Residual, 4> residuals_;
+  bool is_side_ = false;
   std::vector<float> line_;
   std::array<std::vector<float>, 2> corners_;
 };

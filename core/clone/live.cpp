@@ -115,7 +115,9 @@ Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const
     const Result<SolveWay> way = choose_way(region.system, options, quality, watch);
     if (!way) return way.error();
     if (way->on_pixels) {
-      const std::vector<Float4> ring = ring_values(below, region, at, options, 1).values;
+      // What is mixed reads every pixel by itself.
+      std::vector<Float4> ring;
+      if (options.mode != BlendMode::kMixed) ring = ring_values(below, region, at, options, 1).values;
       auto solved = solve_on_pixels(ring, read_live(below, region, at.dx, at.dy, options), region.system, options, *way,
                                     threads, watch);
       if (!solved) return solved.error();

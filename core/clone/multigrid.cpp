@@ -118,24 +118,33 @@ struct MultigridSolve::State {
     stages.push_back({lag + 1, [colour](GridRows& rows, int row) { rows.relax(row, 1 - colour); }});
   }
 
-  /// Relaxes, and hands the residual down.
-  void add_down(std::vector<RowStage>& stages, std::size_t l, int lag, bool from_zero) {
-    add_relaxing(stages, level(l).coarse_colour(), lag, from_zero);
+  /// Hands the residual down, by GridRows::restrict_to or restrict_side_to.
+  template <class Restrict>
+  void add_restriction(std::vector<RowStage>& stages, std::size_t l, int lag, Restrict restrict_row) {
     const GridLevel &fine = level(l), &coarse = level(l + 1);
     float* const b = values[l + 1].b;
-    stages.push_back({lag + 3, [&fine, &coarse, b](GridRows& rows, int row) {
+    stages.push_back({lag, [&fine, &coarse, b, restrict_row](GridRows& rows, int row) {
                         const int y = fine.y_of(row) - fine.coarse_y;
                         const int coarse_row = (y & 1) == 0 ? coarse.find_row(y >> 1) : -1;
-                        if (coarse_row >= 0) rows.restrict_to(coarse, coarse_row, b);
+                        if (coarse_row >= 0) (rows.*restrict_row)(coarse, coarse_row, b);
                       }});
   }
 
+  /// Relaxes, and hands the residual down.
+  void add_down(std::vector<RowStage>& stages, std::size_t l, int lag, bool from_zero) {
+    add_relaxing(stages, level(l).coarse_colour(), lag, from_zero);
+    add_restriction(stages, l, lag + 3, &GridRows::restrict_to);
+  }
+
   /// Takes the correction from below, and relaxes.
-  void add_up(std::vector<RowStage>& stages, std::size_t l, float factor = 1) {
+  void add_up(std::vector<RowStage>& stages, std::size_t l, float factor = 1, bool from_side = false) {
     const GridLevel& coarse = level(l + 1);
     const float* const u = values[l + 1].u;
     stages.push_back({0, [&coarse, u, factor](GridRows& rows, int row) { rows.inject(row, coarse, u, factor); }});
-    stages.push_back({1, [](GridRows& rows, int row) { rows.correct(row); }});
+    if (from_side)
+      stages.push_back({1, [](GridRows& rows, int row) { rows.correct_from_side(row); }});
+    else
+      stages.push_back({1, [](GridRows& rows, int row) { rows.correct(row); }});
     add_relaxing(stages, level(l).coarse_colour(), 2, false);
   }
 
@@ -294,13 +303,19 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolera
   Outcome out;
   double before = 0;
   std::vector<RowStage> stages;
-  add_down(stages, 0, 0, is_zero);
+  // From zero, on the pixels, half a sweep is enough: of the colour without coarse nodes.  It is b / diagonal, and
+  // written when the correction comes.
+  bool from_side = is_zero;
+  if (from_side)
+    add_restriction(stages, 0, 0, &GridRows::restrict_side_to);
+  else
+    add_down(stages, 0, 0, false);
   for (;;) {
     if (watch.stopped()) return cancelled();
     run(0, stages);
+    is_zero &= out.cycles == 0;
     // From zero most of the error is smooth: a second look takes off three quarters of it, for a fourth of a cycle.
-    visit(1, is_zero);
-    is_zero = false;
+    visit(1, from_side);
     const double correction = largest_correction();
     ++out.cycles;
     if (before > 0) out.contraction = correction / before;
@@ -311,10 +326,11 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolera
     const bool is_last = out.cycles >= most || is_floor(out, correction);
     const bool is_done = is_last || (out.cycles >= least && out.error <= tolerance);
     stages.clear();
-    add_up(stages, 0, factor);
+    add_up(stages, 0, factor, std::exchange(from_side, false));
     if (!is_done) add_down(stages, 0, 4, false);
     if (!is_done) continue;
     run(0, stages);
+    is_zero = false;
     if (!is_tricky()) return out;
     // Where holes are dense, errors hide between the coarse nodes: a pixel's is at most its residual there.
     out.error += kMargin * largest_residual();

@@ -79,9 +79,9 @@ public:
 
   /// Cycles, at least `least` and at most `most`, until the error is at most `tolerance`, or float can do no better.
   ///
-  /// A cycle is V(1,1), and takes off nine tenths of the error; where the mask has holes or slits so narrow that coarse
-  /// grids see them badly it is W(1,1), for 1.5 times the time, and takes off three quarters; of pixel-sized holes all
-  /// over the mask two thirds, at worst half.
+  /// A cycle is V(1,1), the first from zero V(½,1), and takes off nine tenths of the error; where the mask has holes or
+  /// slits so narrow that coarse grids see them badly it is W(1,1), for 1.5 times the time, and takes off three
+  /// quarters; of pixel-sized holes all over the mask two thirds, at worst half.
   /// @errors cancelled (asked between cycles; u is then as the last cycle left it).
   /// @cost 6 ns a pixel and cycle, most of it the memory's time; with runs of a few pixels (pixel-sized holes) 60 to
   /// 200.

@@ -277,11 +277,30 @@ TEST(GridKernels, AllSetsGiveTheSameBits) {
     };
     same([&](const GridKernels& k, float* out) { k.relax(out, &in[284], at, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.relax_zero(out, &in[284], count, 0.23f); });
+    same([&](const GridKernels& k, float* out) { k.eliminate(out, &in[284], at, count, 0.23f); });
+    same([&](const GridKernels& k, float* out) { k.start_half(out, &in[284], at.north, at.south, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.residual(out, &in[284], &in[400], at, count, 0.1f); });
     same([&](const GridKernels& k, float* out) { k.add_half(out, at.north, at.south, count); });
     same([&](const GridKernels& k, float* out) { k.weigh(out, &in[284], at.north, at.south, count); });
     EXPECT_EQ(plain.largest(&in[5], count), best.largest(&in[5], count));
     same([&](const GridKernels& k, float* out) { k.surplus(out, 64, {&in[0], 31}, {&in[1], 31}, count); });
+  }
+}
+
+TEST(GridKernels, JudgeEachPairByItself) {
+  // Levels of 8 bits, few of them: many pairs tie.
+  std::mt19937 random(9);
+  constexpr std::size_t kCount = 201, kStride = kCount + 1;
+  std::vector<float> planes(6 * kStride), all(3 * kCount), one(3);
+  for (float& v : planes)
+    v = static_cast<float>(random() % 5 + 90) / 255;
+  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()}) {
+    kernels.surplus(all.data(), kCount, {planes.data(), kStride}, {planes.data() + 1, kStride}, kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      kernels.surplus(one.data(), 1, {&planes[i], kStride}, {&planes[i + 1], kStride}, 1);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(all[k * kCount + i], one[k]) << i;
+    }
   }
 }
 
