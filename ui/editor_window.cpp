@@ -219,7 +219,8 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   ImGui::End();
   draw_dialogs(state, parts, pictures, events, context);
   parts.dialog_open = dialog;
-  compat::let_keys_move(is_popup_open());
+  // Between two menus too: an arrow that is held down would else count as pressed anew in the second.
+  compat::let_keys_move(is_popup_open() || parts.flags.menu_wanted);
 }
 
 } // namespace oversketch

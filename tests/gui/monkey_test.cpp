@@ -127,45 +127,14 @@ private:
   }
 
   bool press_keys(const Json& map) {
-    static constexpr std::array kChords{"l",
-                                        "s",
-                                        "p",
-                                        "v",
-                                        "h",
-                                        "ctrl+z",
-                                        "ctrl+z",
-                                        "ctrl+z",
-                                        "ctrl+y",
-                                        "ctrl+shift+z",
-                                        "Delete",
-                                        "Escape",
-                                        "Return",
-                                        "Tab",
-                                        "Left",
-                                        "Right",
-                                        "Up",
-                                        "Down",
-                                        "x",
-                                        "shift+Left",
-                                        "ctrl+n",
-                                        "ctrl+o",
-                                        "ctrl+s",
-                                        "ctrl+w",
-                                        "F1",
-                                        "F2",
-                                        "ctrl+0",
-                                        "ctrl+1",
-                                        "plus",
-                                        "minus",
-                                        "space",
-                                        "Home",
-                                        "End",
-                                        "backslash",
-                                        "ctrl+h",
-                                        "ctrl+a",
-                                        "ctrl+v",
-                                        "bracketleft",
-                                        "bracketright",
+    static constexpr std::array kChords{"l",           "s",      "p",      "v",           "h",
+                                        "ctrl+z",      "ctrl+z", "ctrl+z", "ctrl+y",      "ctrl+shift+z",
+                                        "Delete",      "Escape", "Return", "Tab",         "Left",
+                                        "Right",       "Up",     "Down",   "x",           "shift+Left",
+                                        "ctrl+n",      "ctrl+o", "ctrl+s", "ctrl+w",      "F1",
+                                        "F2",          "F10",    "ctrl+0", "ctrl+1",      "plus",
+                                        "minus",       "space",  "Home",   "End",         "backslash",
+                                        "ctrl+h",      "ctrl+a", "ctrl+v", "bracketleft", "bracketright",
                                         "ctrl+shift+e"};
     if (map.at("wants_text") && chance(0.7)) {
       last_ = "text";
@@ -174,6 +143,10 @@ private:
       return editor_.rest();
     }
     last_ = any_of(kChords);
+    // The keyboard may have gone to what ends the program.
+    const bool chooses = last_ == "Return" || last_ == "space";
+    for (const auto& [id, box] : map.at("widgets").items())
+      if (chooses && id.starts_with("menu.file.")) last_ = "Escape";
     return editor_.press(last_);
   }
 

@@ -204,5 +204,21 @@ TEST_F(GuiSession, a_name_can_be_typed_before_the_dialog_is_there) {
   EXPECT_EQ(editor.close(), 0);
 }
 
+TEST_F(GuiSession, a_path_is_typed_into_the_file_list) {
+  EditorUnderTest editor({.width = 1000, .height = 700});
+  ASSERT_TRUE(editor.start());
+  ASSERT_TRUE(editor.press("ctrl+o"));
+  ASSERT_TRUE(editor.wait_for("the list", [](const Json& map) {
+    return map.at("widgets").contains("browser.list") && !map.at("wants_text") && !map.at("busy");
+  }));
+  editor.hand().type((kSamples / "kingfisher.jpg").string());
+  ASSERT_TRUE(editor.rest());
+  EXPECT_TRUE(editor.map().at("wants_text"));
+  ASSERT_TRUE(editor.press("Return"));
+  ASSERT_TRUE(editor.wait_for(
+      "the picture", [](const Json& map) { return map.at("tabs") == Json::array({"kingfisher"}) && !map.at("busy"); }));
+  EXPECT_EQ(editor.close(), 0);
+}
+
 } // namespace
 } // namespace oversketch

@@ -108,6 +108,32 @@ TEST(GuiWindow, every_point_of_a_fast_stroke_arrives) {
   EXPECT_GE(editor.map().at("events").get<int>() - events, 1 + 1 + 199 + 1 + 1);
 }
 
+TEST(GuiWindow, menus_are_moved_in_by_the_keyboard) {
+  EditorUnderTest editor({.arguments = {"--sample"}});
+  ASSERT_TRUE(editor.start());
+  const Json history = editor.map().at("history");
+  const int cursor = editor.map().at("cursor");
+  ASSERT_TRUE(editor.press("F10"));
+  ASSERT_TRUE(editor.widget("menu.file.open"));
+  using Step = std::pair<const char*, const char*>;
+  for (const auto& [key, entry] :
+       {Step("Right", "menu.edit.undo"), Step("Right", "menu.layer.add"), Step("Right", "menu.view.fit"),
+        Step("Right", "menu.help.about"), Step("Right", "menu.file.open"), Step("Left", "menu.help.about"),
+        Step("Left", "menu.view.fit"), Step("Left", "menu.layer.add"), Step("Left", "menu.edit.undo")}) {
+    ASSERT_TRUE(editor.press(key));
+    ASSERT_TRUE(editor.widget(entry)) << entry;
+  }
+  EXPECT_EQ(editor.map().at("history"), history) << "nothing is nudged on the way";
+  EXPECT_EQ(editor.map().at("cursor"), cursor);
+  ASSERT_TRUE(editor.press("Return"));
+  EXPECT_EQ(editor.map().at("cursor"), cursor - 1) << "the first entry undoes";
+  EXPECT_FALSE(editor.widget("menu.edit.undo"));
+  for (const char* key : {"F10", "Right", "Down", "Return"})
+    ASSERT_TRUE(editor.press(key));
+  EXPECT_EQ(editor.map().at("cursor"), cursor) << "the second does it again";
+  EXPECT_EQ(editor.close(), 0);
+}
+
 TEST(GuiWindow, resizing_keeps_the_picture_fitted) {
   EditorUnderTest editor({.arguments = {OVERSKETCH_SOURCE_DIR "/assets/puffer.jpg"}});
   ASSERT_TRUE(editor.start());

@@ -88,14 +88,14 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
   draw_note(context, "Ways to fit the curves");
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, gap = look.px(6);
-  const float side = std::min(look.px(84), (width - 2 * gap) / 3);
+  // All in a row: there are few, and none is to be looked for below the others.
+  const auto count = static_cast<float>(model.alternatives.size());
+  const float side = std::min(look.px(84), (width + gap) / count - gap);
   for (std::size_t i = 0; i < model.alternatives.size(); ++i) {
     const AlternativeSnapshot& choice = model.alternatives[i];
     const std::string id = "deform.alternative." + std::to_string(i);
     const IdScope scope(id);
-    const auto column = static_cast<float>(i % 3), line = static_cast<float>(i / 3);
-    const ImVec2 corner(at.x + column * (side + gap), at.y + line * (side + gap)),
-        end(corner.x + side, corner.y + side);
+    const ImVec2 corner(at.x + static_cast<float>(i) * (side + gap), at.y), end(corner.x + side, corner.y + side);
     ImGui::SetCursorScreenPos(corner);
     if (ImGui::InvisibleButton("##choice", ImVec2(side, side)) && !choice.chosen)
       context.sink.emit(action::Execute{choice.take});
@@ -110,8 +110,7 @@ void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawC
       ImGui::GetWindowDrawList()->AddRect(corner, end, look.accent, look.px(4), 0,
                                           look.px(choice.chosen ? 2.5F : 1.2F));
   }
-  const auto lines = static_cast<float>((model.alternatives.size() + 2) / 3);
-  ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + lines * (side + gap)));
+  ImGui::SetCursorScreenPos(ImVec2(at.x, at.y + side + gap));
 }
 
 /// Tells the session whether the other fits are looked at: they cost a solve each.

@@ -67,8 +67,8 @@ bool draw_submenu(const char* label, const char* id, const char* tip, const Entr
 /// The arrows to the left and right go to the next menu.
 void go_to_neighbour(const MenuTitle& title, bool right_taken, const EntryContext& entries,
                      const DrawContext& context) {
-  const bool right = compat::is_key_pressed(ImGuiKey_RightArrow) && !right_taken;
-  const bool left = compat::is_key_pressed(ImGuiKey_LeftArrow) && ImGui::IsWindowFocused();
+  const bool right = compat::wants_key_move(ImGuiDir_Right) && !right_taken;
+  const bool left = compat::wants_key_move(ImGuiDir_Left) && ImGui::IsWindowFocused();
   if (left == right) return;
   const auto own = static_cast<std::size_t>(&title - kMenus.data());
   entries.flags.menu_wanted = kMenus[(own + (right ? 1 : kMenus.size() - 1)) % kMenus.size()].menu;

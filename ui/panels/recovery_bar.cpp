@@ -4,8 +4,38 @@
 #include "ui/widgets/buttons.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace oversketch {
+namespace {
+
+constexpr std::size_t kNoticeLines = 5;
+
+struct NoticeLine {
+  std::string shown;
+  /// What is cut short in it, or left out for it.
+  std::string whole;
+};
+
+/// The last one stands for all that have no place.
+std::vector<NoticeLine> lines_of_notice(const std::string& notice) {
+  std::vector<NoticeLine> lines;
+  for (std::size_t begin = 0; begin <= notice.size();) {
+    const auto more =
+        static_cast<std::size_t>(std::count(notice.begin() + static_cast<std::ptrdiff_t>(begin), notice.end(), '\n'));
+    if (lines.size() + 1 == kNoticeLines && more > 0) {
+      lines.push_back({"and " + std::to_string(more + 1) + " more", notice.substr(begin)});
+      break;
+    }
+    const std::size_t end = std::min(notice.find('\n', begin), notice.size());
+    const std::string line = notice.substr(begin, end - begin);
+    lines.push_back({line, line});
+    begin = end + 1;
+  }
+  return lines;
+}
+
+} // namespace
 
 RecoveryBarModel make_recovery_bar_model(const EditorState& state, bool beside_work) {
   RecoveryBarModel model;
@@ -43,9 +73,7 @@ void draw_recovery_bar(const RecoveryBarModel& model, const Area& area, const Dr
 }
 
 float notice_height(const std::string& notice) {
-  if (notice.empty()) return 0;
-  const auto lines = 1 + std::ranges::count(notice, '\n');
-  return 16 + 20 * static_cast<float>(std::min<std::ptrdiff_t>(lines, 5));
+  return notice.empty() ? 0 : 16 + 20 * static_cast<float>(lines_of_notice(notice).size());
 }
 
 void draw_notice_bar(const std::string& notice, const Area& area, const DrawContext& context) {
@@ -59,17 +87,14 @@ void draw_notice_bar(const std::string& notice, const Area& area, const DrawCont
   if (draw_button(context, "notice.close", "Close", {"Takes this message away.", {}}, {.width = 60, .height = 24}))
     context.sink.emit(action::DismissNotice{});
   float top = area.low.y + look.px(8);
-  for (std::size_t begin = 0; begin <= notice.size() && top + look.px(20) <= area.high.y;) {
-    const std::size_t end = std::min(notice.find('\n', begin), notice.size());
-    const std::string line = notice.substr(begin, end - begin);
+  int number = 0;
+  for (const NoticeLine& line : lines_of_notice(notice)) {
     const ImVec2 corner(area.low.x + look.px(14), top), low(right - look.px(8), top + look.px(20));
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy(ImVec2(std::max(1.0F, low.x - corner.x), look.px(20)));
-    // The whole of a line that is cut short.
-    finish_item(context, "notice." + std::to_string(begin), {line, {}});
-    draw_text(corner, low, look.ink, line);
+    finish_item(context, "notice." + std::to_string(number++), {line.whole, {}});
+    draw_text(corner, low, look.ink, line.shown);
     top += look.px(20);
-    begin = end + 1;
   }
 }
 

@@ -23,7 +23,8 @@ RecoveryBarModel make_recovery_bar_model(const EditorState& state, bool beside_w
 /// leaves it for the next start.
 void draw_recovery_bar(const RecoveryBarModel& model, const Area& area, const DrawContext& context);
 
-/// Design pixels of the bar that says what could not be opened: a line a file, up to five; 0 where all went well.
+/// Design pixels of the bar that says what could not be opened: a line a file, up to five, the last of
+/// which counts those that have none; 0 where all went well.
 float notice_height(const std::string& notice);
 /// "panel.notice", and "notice.close", which takes it away.
 void draw_notice_bar(const std::string& notice, const Area& area, const DrawContext& context);

@@ -2,6 +2,7 @@
 #include "ui/state/editor.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 
 namespace oversketch {
@@ -213,8 +214,11 @@ void Editor::tell_failure(const std::string& title, const Error& error, const st
 void Editor::tell_unopened(const fs::path& path, const Error& error) {
   if (error.code == cancelled().code) return;
   const bool named = error.where.empty() || fs::path(error.where) == path;
-  state_.notice += (state_.notice.empty() ? "" : "\n") + path.filename().string() +
-                   " is not opened: " + (named ? error.sentence : to_line(error));
+  std::string why = named ? error.sentence : to_line(error);
+  // Some are whole sentences, which here go on after the colon.
+  if (named && why.size() > 1 && std::islower(static_cast<unsigned char>(why[1])) != 0)
+    why[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(why[0])));
+  state_.notice += (state_.notice.empty() ? "" : "\n") + path.filename().string() + " is not opened: " + why;
 }
 
 void Editor::save(Tab& tab) {

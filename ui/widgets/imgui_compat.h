@@ -86,6 +86,11 @@ inline void let_enter_choose() {
   io.NavInputs[ImGuiNavInput_Activate] = down ? 1.0F : 0.0F;
 #endif
 }
+/// Whether an arrow key asks in this frame to move that way, and nothing has taken it yet.
+inline bool wants_key_move(ImGuiDir way) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  return context.NavMoveSubmitted && context.NavMoveDir == way;
+}
 /// What an arrow key would have moved in this frame stays where it is.
 inline void drop_key_move() {
   ImGui::NavMoveRequestCancel();

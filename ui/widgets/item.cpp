@@ -18,7 +18,18 @@ float rest_since(const DrawContext& context, std::string_view id, bool hovered) 
   return since;
 }
 
-void show_tip(const DrawContext& context, const Tip& tip) {
+/// Whether it is time for a tip; otherwise asks for a frame when it will be.
+bool has_rested(const DrawContext& context, std::string_view id, bool hovered, const Tip& tip) {
+  const float since = rest_since(context, id, hovered);
+  if (since < 0 || tip.text.empty()) return false;
+  const bool rested = context.now_s - since >= kTipDelay_s - 1e-3;
+  if (!rested) context.reply.ask_frame_at(since + kTipDelay_s);
+  return rested;
+}
+
+/// @param corner  where; null is at the pointer.
+void show_tip(const DrawContext& context, const Tip& tip, const ImVec2* corner) {
+  if (corner != nullptr) ImGui::SetNextWindowPos(*corner);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.look.px(10), context.look.px(7)));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(context.look.px(300));
@@ -55,16 +66,14 @@ void finish_item(const DrawContext& context, std::string_view id, const Tip& tip
 
   const bool busy = ImGui::IsMouseDown(0) || ImGui::IsItemActive();
   const bool hovered = !busy && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
-  tip_at_rest(context, id, hovered, tip);
+  // Where the keyboard goes, what its keys reach next stays in sight: beside the menu, not over it.
+  const bool by_keys = hovered && !ImGui::IsMouseHoveringRect(low, high);
+  const ImVec2 beside(ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + context.look.px(6), low.y);
+  if (has_rested(context, id, hovered, tip)) show_tip(context, tip, by_keys ? &beside : nullptr);
 }
 
 void tip_at_rest(const DrawContext& context, std::string_view id, bool hovered, const Tip& tip) {
-  const float since = rest_since(context, id, hovered);
-  if (since < 0 || tip.text.empty()) return;
-  if (context.now_s - since >= kTipDelay_s - 1e-3)
-    show_tip(context, tip);
-  else
-    context.reply.ask_frame_at(since + kTipDelay_s);
+  if (has_rested(context, id, hovered, tip)) show_tip(context, tip, nullptr);
 }
 
 Measures measures_of(const ThemeLook& look, float width) {

@@ -3,12 +3,15 @@
 #include "core/image/compare.h"
 #include "core/image/image_io.h"
 #include "core/io/recorder.h"
+#include "core/session/live_session.h"
 
 #include "tests/support/documents.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <numbers>
 
 namespace oversketch {
 namespace {
@@ -213,6 +216,39 @@ TEST_F(Runner, a_saved_session_opens_as_it_was) {
   for (const auto& entry : fs::recursive_directory_iterator(folder / "out/kept/work.files"))
     pictures += entry.is_regular_file() ? 1 : 0;
   EXPECT_EQ(pictures, 2u) << "each content once";
+}
+
+TEST_F(Runner, a_match_that_was_taken_is_taken_again) {
+  Points bar;
+  for (int i = 0; i < 48; ++i) {
+    const double t = 2 * std::numbers::pi * (i + 0.5) / 48;
+    bar.push_back({55 + 38 * std::cos(t), 50 + 18 * std::sin(t)});
+  }
+  DocumentNew begin;
+  begin.target = loaded_ref("target.png", *load_image(folder / "target.png"));
+  LiveSession live;
+  live.want_alternatives(true);
+  live.execute(begin);
+  live.execute(LayerAdd{loaded_ref("source.png", *load_image(folder / "source.png")), "bar"});
+  live.execute(RegionSet{{}, bar});
+  live.execute(SketchSet{{}, bar});
+  live.wait_until_idle();
+  ASSERT_EQ(live.snapshot()->alternatives.size(), 2U) << "a bar and its half turn";
+  live.execute(live.snapshot()->alternatives[1].take);
+  const auto record = [&](Session& recorded, const Watch&) { return save_session(recorded, folder / "match.jsonl"); };
+  live.run("Recording", record);
+  live.wait_until_idle();
+
+  Session again;
+  const auto opened = open_session(again, folder / "match.jsonl", {});
+  ASSERT_TRUE(opened.ok()) << to_string(opened.error());
+  EXPECT_EQ(again.document(), live.snapshot()->document);
+  EXPECT_EQ(again.history().entries().back().label, "Other match");
+  const LayerId layer = again.document().layers.at(0).id;
+  const auto solved = again.deformation(layer);
+  ASSERT_TRUE(solved.ok());
+  EXPECT_LT(distance((*solved)->outline[0], live.snapshot()->layers.at(0).deformation->outline[0]), 0.5);
+  EXPECT_GT(distance((*solved)->outline[0], bar[0]), 40) << "turned";
 }
 
 TEST_F(Runner, what_is_no_session_is_not_opened_and_nothing_is_lost) {

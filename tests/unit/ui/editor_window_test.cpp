@@ -242,9 +242,10 @@ TEST_F(WholeWindow, MenusAreMovedInByTheKeyboard) {
     std::erase_if(actions, comes_of_looking);
     return actions;
   };
+  // A finger stays on a key for some frames.
   const auto hit = [&](ImGuiKey key, Key named) {
     events = {key_event(named)};
-    press(key);
+    press(key, 4);
     frame();
   };
   events = {key_event(Key::kF10)};
@@ -305,6 +306,11 @@ TEST_F(WholeWindow, WhatIsNotOpenedIsToldOverTheCanvases) {
     click("notice.close");
     take_one<action::DismissNotice>();
   }
+  state.notice = "a\nb\nc\nd\ne\nf\ng";
+  frame();
+  EXPECT_TRUE(has("notice.4"));
+  EXPECT_FALSE(has("notice.5"));
+  EXPECT_EQ(widgets_.tips().find("notice.4")->second, "e\nf\ng") << "what has no line is in the last one's tip";
   state.notice.clear();
   frame();
   EXPECT_FALSE(has("panel.notice"));

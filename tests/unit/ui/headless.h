@@ -134,9 +134,10 @@ protected:
     ImGui::GetIO().AddInputCharactersUTF8(text);
     frame();
   }
-  void press(ImGuiKey key) {
+  void press(ImGuiKey key, int frames = 1) {
     set_key(key, true);
-    frame();
+    for (int i = 0; i < frames; ++i)
+      frame();
     set_key(key, false);
     frame();
   }
