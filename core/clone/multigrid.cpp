@@ -17,6 +17,8 @@ namespace oversketch {
 namespace {
 
 constexpr std::size_t kC = kGridChannels;
+/// Slots are read as four floats: what follows the last one is nobody else's, for another thread may be writing there.
+constexpr std::size_t kBeyond = 1;
 
 /// Few enough to be factored: a substitution then costs less than a cycle on them.
 constexpr int kMostFactored = 600;
@@ -92,12 +94,11 @@ struct MultigridSolve::State {
   explicit State(const MaskMultigrid& grids) : data(grids.data_) {
     std::size_t total = 0;
     for (const GridLevel& level : data->levels)
-      total += 2 * kC * static_cast<std::size_t>(level.count());
-    // One more than the slots: see from_slots.
-    memory.resize(total + 1);
+      total += 2 * (kC * static_cast<std::size_t>(level.count()) + kBeyond);
+    memory.resize(total);
     float* at = memory.data();
     for (const GridLevel& level : data->levels) {
-      const std::size_t size = kC * static_cast<std::size_t>(level.count());
+      const std::size_t size = kC * static_cast<std::size_t>(level.count()) + kBeyond;
       values.push_back({at, at + size});
       at += 2 * size;
     }

@@ -31,8 +31,9 @@ Texture::Texture(const MipLevels& levels) : name_(make_texture()) {
 }
 
 Texture::Texture(const Raster<Rgba8>& pixels) : name_(make_texture()) {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   allocate(0, pixels, pixels.values().data());
-  glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 Texture::~Texture() {

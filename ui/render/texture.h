@@ -12,7 +12,8 @@ public:
   Texture() = default;
   /// With room for all levels of `levels` and nothing in it.
   explicit Texture(const MipLevels& levels);
-  /// A small picture with mip maps made by the hardware.
+  /// A small picture without mip maps: to be drawn at half its size or larger.  (Mip maps made by the hardware cost a
+  /// frame of 70 ms where it is a software rasteriser, which compiles a program for them.)
   explicit Texture(const Raster<Rgba8>& pixels);
   ~Texture();
   Texture(Texture&& other) noexcept;

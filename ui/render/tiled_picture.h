@@ -15,7 +15,7 @@ namespace oversketch {
 /// its neighbours, so that no seam shows when it is magnified.
 class TiledPicture {
 public:
-  static constexpr int kSide = 1024;
+  static constexpr int kSide = 256;
 
   /// @param keeps_pixels  whether parts of it will be put anew: then a copy stays beside the textures.
   TiledPicture(int width, int height, bool keeps_pixels);
