@@ -119,7 +119,8 @@ Result<SolveWay> choose_way(const CloneSystem& system, const BlendOptions& optio
   const bool is_mixed = options.mode == BlendMode::kMixed, is_export = quality == CloneQuality::kExport;
   SolveWay way{nullptr, true, kExportLevels, 1, kMostCycles};
   // Of bounds, for errors of 1.5 and 0.1 where mixed gradients are chosen: see MultigridSolve::Outcome.  After two
-  // cycles from zero errors were 0.1 to 0.6 of them, 1.2 levels at the most (blob, snake and holed, 65 k to 4 M pixels).
+  // cycles from zero errors were 0.1 to 0.6 of them, 1.2 levels at the most (blob, snake and holed, 65 k to 4 M
+  // pixels).
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
     way.tolerance_levels = is_mixed || options.screening > 0 ? 3 : 1, way.least = 2, way.most = 6;
   if (quality == CloneQuality::kRest) way.tolerance_levels = 0.14, way.least = 3, way.most = 20;
