@@ -59,9 +59,8 @@ struct WarpOptions {
 /// @returns rect = mask.bounds() grown by 1; the mask's pixels and their eight neighbours are drawn, all others are
 ///   {0, 0, 0, 0}.
 /// @errors warp.empty-mask; warp.empty-source; warp.too-large (more than options.most_pixels in the rect);
-/// warp.not-finite and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond); warp.no-cell
-/// (no cell covers
-///   any pixel of the rect); cancelled.
+///   warp.not-finite and warp.too-far (a vertex that is not a number, or at kMaskCoordinateLimit or beyond);
+///   warp.no-cell (no cell covers any pixel of the rect); cancelled.
 /// @cost on one busy core at 16-px quads, into the memory of `spare` (without it 2 to 4 ns more), ns a pixel: bilinear
 /// 8 with AVX2 and 11 without, bicubic 13 and 19, shrunk to a third 45; 10, 14, 14, 19 and 45 where source and region
 /// do not fit the second cache.  A source with alpha throughout: bilinear 26 to 30, bicubic 95.  16 bytes a pixel of
