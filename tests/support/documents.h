@@ -45,6 +45,16 @@ inline Points blob(Point centre, double radius, double wobble = 0.2, int count =
   return points;
 }
 
+/// An ellipse, which is like its half turn: it can be laid along itself in two ways.
+inline Points bar(Point centre, double half_length, double half_width) {
+  Points points;
+  for (int i = 0; i < 48; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / 48;
+    points.push_back(centre + Point{half_length * std::cos(angle), half_width * std::sin(angle)});
+  }
+  return points;
+}
+
 inline DocumentNew new_document(int width, int height) {
   DocumentNew command;
   command.width = width;

@@ -11,8 +11,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <numbers>
-
 namespace oversketch {
 namespace {
 
@@ -219,19 +217,15 @@ TEST_F(Runner, a_saved_session_opens_as_it_was) {
 }
 
 TEST_F(Runner, a_match_that_was_taken_is_taken_again) {
-  Points bar;
-  for (int i = 0; i < 48; ++i) {
-    const double t = 2 * std::numbers::pi * (i + 0.5) / 48;
-    bar.push_back({55 + 38 * std::cos(t), 50 + 18 * std::sin(t)});
-  }
+  const Points curve = testing::bar({55, 50}, 38, 18);
   DocumentNew begin;
   begin.target = loaded_ref("target.png", *load_image(folder / "target.png"));
   LiveSession live;
   live.want_alternatives(true);
   live.execute(begin);
   live.execute(LayerAdd{loaded_ref("source.png", *load_image(folder / "source.png")), "bar"});
-  live.execute(RegionSet{{}, bar});
-  live.execute(SketchSet{{}, bar});
+  live.execute(RegionSet{{}, curve});
+  live.execute(SketchSet{{}, curve});
   live.wait_until_idle();
   ASSERT_EQ(live.snapshot()->alternatives.size(), 2U) << "a bar and its half turn";
   live.execute(live.snapshot()->alternatives[1].take);
@@ -248,7 +242,7 @@ TEST_F(Runner, a_match_that_was_taken_is_taken_again) {
   const auto solved = again.deformation(layer);
   ASSERT_TRUE(solved.ok());
   EXPECT_LT(distance((*solved)->outline[0], live.snapshot()->layers.at(0).deformation->outline[0]), 0.5);
-  EXPECT_GT(distance((*solved)->outline[0], bar[0]), 40) << "turned";
+  EXPECT_GT(distance((*solved)->outline[0], curve[0]), 40) << "turned";
 }
 
 TEST_F(Runner, what_is_no_session_is_not_opened_and_nothing_is_lost) {

@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <thread>
 
 namespace oversketch {
@@ -290,16 +289,12 @@ TEST(LiveSession, takes_requests_from_several_threads) {
 }
 
 TEST(LiveSession, every_match_can_be_taken_and_taken_back_in_one_step) {
-  Points bar;
-  for (int i = 0; i < 48; ++i) {
-    const double t = 2 * std::numbers::pi * (i + 0.5) / 48;
-    bar.push_back({60 + 40 * std::cos(t), 60 + 18 * std::sin(t)});
-  }
+  const Points curve = testing::bar({60, 60}, 40, 18);
   LiveSession live;
   live.want_alternatives(true);
   std::vector<Command> commands = sketched();
-  commands[2] = RegionSet{{}, bar};
-  commands[3] = SketchSet{{}, bar};
+  commands[2] = RegionSet{{}, curve};
+  commands[3] = SketchSet{{}, curve};
   execute_all(live, commands);
   const auto chosen = [&] {
     std::vector<bool> all;
@@ -334,7 +329,7 @@ TEST(LiveSession, every_match_can_be_taken_and_taken_back_in_one_step) {
   live.wait_until_idle();
   EXPECT_EQ(chosen(), (std::vector{true, false}));
   EXPECT_TRUE(live.snapshot()->document.layers[0].pins.empty());
-  live.execute(PinAdd{{}, bar[5], bar[9]});
+  live.execute(PinAdd{{}, curve[5], curve[9]});
   live.wait_until_idle();
   EXPECT_TRUE(chosen().empty()) << "another pin decides";
 }

@@ -59,6 +59,14 @@ protected:
     run.does(action::Undo{});
     return run.snapshot()->document;
   }
+  /// Saves a project with one layer and names that "newer", which is saved nowhere; the run ends as if it were killed.
+  void crash_after_saving(const fs::path& file) {
+    Program run(state_);
+    run.does(action::Open{picture("sea.png", 60)});
+    run.does(action::AddSource{std::string(kTargetName)});
+    run.does(action::SaveAs{file, true});
+    run.does(action::Execute{LayerRename{{}, "newer"}});
+  }
   bool is_nothing_left() const {
     std::error_code failure;
     return !fs::exists(state_ / "journals", failure) || fs::is_empty(state_ / "journals");
@@ -174,13 +182,7 @@ TEST_F(Recovery, a_damaged_journal_stays_where_it_is) {
 
 TEST_F(Recovery, a_project_comes_back_under_its_own_name) {
   const fs::path file = folder_ / "work.ora";
-  {
-    Program run(state_);
-    run.does(action::Open{picture("sea.png", 60)});
-    run.does(action::AddSource{std::string(kTargetName)});
-    run.does(action::SaveAs{file});
-    run.does(action::Execute{LayerRename{{}, "after"}});
-  }
+  crash_after_saving(file);
   Program run(state_);
   ASSERT_EQ(run.state().recovered.size(), 1u);
   EXPECT_EQ(run.state().recovered[0].name, "work");
@@ -198,13 +200,7 @@ TEST_F(Recovery, takes_the_place_of_its_project_while_that_is_as_it_was_saved) {
   const fs::path file = folder_ / "work.ora";
   for (const bool touched : {false, true}) {
     SCOPED_TRACE(touched);
-    {
-      Program run(state_);
-      run.does(action::Open{picture("sea.png", 60)});
-      run.does(action::AddSource{std::string(kTargetName)});
-      run.does(action::SaveAs{file, true});
-      run.does(action::Execute{LayerRename{{}, "newer"}});
-    }
+    crash_after_saving(file);
     Program run(state_);
     run.does(action::Open{file});
     run.does(action::Open{picture("other.png", 50)});
@@ -270,13 +266,7 @@ TEST(LostWork, is_told_by_the_clock_on_the_wall) {
 
 TEST_F(Recovery, waits_for_its_project_where_that_is_still_being_opened) {
   const fs::path file = folder_ / "work.ora";
-  {
-    Program run(state_);
-    run.does(action::Open{picture("sea.png", 60)});
-    run.does(action::AddSource{std::string(kTargetName)});
-    run.does(action::SaveAs{file});
-    run.does(action::Execute{LayerRename{{}, "newer"}});
-  }
+  crash_after_saving(file);
   Program run(state_);
   run.editor.perform_all({action::Open{file}, action::Open{file}, action::Recover{0}});
   run.settle();
