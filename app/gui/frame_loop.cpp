@@ -137,8 +137,12 @@ std::string FrameLoop::title() const {
          " – Oversketch";
 }
 
+Result<void> FrameLoop::set_look() {
+  return imgui_.set_look(editor_.state().preferences.theme, scale(), assets_);
+}
+
 Result<void> FrameLoop::lay_out() {
-  if (auto set = imgui_.set_look(editor_.state().preferences.theme, scale(), assets_); !set) return set;
+  if (auto set = set_look(); !set) return set;
   widgets_ = {};
   reply_ = {};
   pictures_.begin_frame();
@@ -215,6 +219,8 @@ Result<void> FrameLoop::settle() {
 }
 
 Result<void> FrameLoop::run() {
+  // Letters are drawn before anything waits for a frame.
+  if (auto set = set_look(); !set) return set;
   open_what_was_asked();
   while (!ended_) {
     const bool draws = gather();

@@ -33,6 +33,7 @@ private:
   double wait_time() const;
   /// Whether there is a reason to draw.
   bool gather();
+  Result<void> set_look();
   /// One pass of Dear ImGui over the whole window, which takes what was gathered.
   Result<void> lay_out();
   /// Passes until the panels have settled, each but the last carried out; the last is drawn.

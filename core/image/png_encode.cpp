@@ -6,14 +6,17 @@
 #include <memory>
 #include <spng.h>
 #include <string>
+#include <zlib.h>
 
 namespace oversketch {
 
 namespace {
 
-/// zlib's fastest level on the difference to the pixel above: on photographs half the time of choosing a filter for
-/// each row and no larger, a fifth of level 6's time for a tenth more bytes.
+/// zlib's fastest level, looking for runs alone, on the difference to the pixel above: on photographs half the time of
+/// choosing a filter for each row and no larger, and four fifths of the time of looking for all that repeats, for 12 %
+/// more to 11 % fewer bytes.
 constexpr int kLevel = 1;
+constexpr int kStrategy = Z_RLE;
 constexpr int kFilter = SPNG_FILTER_CHOICE_UP;
 
 /// Leaves alpha out by moving r, g, b together.
@@ -55,6 +58,7 @@ int encode(spng_ctx* context, const Image& image, BitDepth depth, PngAlpha wante
   if (const int code = spng_set_srgb(context, 0)) return code;
   spng_set_option(context, SPNG_ENCODE_TO_BUFFER, 1);
   spng_set_option(context, SPNG_IMG_COMPRESSION_LEVEL, kLevel);
+  spng_set_option(context, SPNG_IMG_COMPRESSION_STRATEGY, kStrategy);
   spng_set_option(context, SPNG_FILTER_CHOICE, kFilter);
   const int flags = SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE;
   if (const int code = spng_encode_image(context, nullptr, 0, SPNG_FMT_PNG, flags)) return code;

@@ -26,6 +26,7 @@ std::vector<Library> list_libraries() {
           {"nlohmann/", {"core/document/", "core/session/", "core/io/", "ui/state/", "app/"}},
           {"jpeglib.h", {"core/image/"}},
           {"spng.h", {"core/image/"}},
+          {"zlib.h", {"core/image/"}},
           {"libexif/", {"core/image/"}},
           {"stb_image", {"core/image/"}},
           {"stb_truetype", {"app/cli/figure_font"}},
