@@ -64,6 +64,8 @@ const char* name_of(BenchStatistic statistic) {
     return "mean";
   case BenchStatistic::kWorst:
     return "worst";
+  case BenchStatistic::kClock:
+    return "clock";
   }
   return "";
 }
@@ -81,15 +83,16 @@ std::string number(double value) {
 }
 
 void print_head() {
-  std::printf("%-28s %9s %9s %9s %9s  %-14s %9s  %-6s %s\n", "benchmark", "median", "mean", "worst", "max", "goal",
-              "prototype", "unit", "what (worst at)");
+  std::printf("%-28s %9s %9s %9s %9s %9s  %-14s %9s  %-6s %s\n", "benchmark", "median", "mean", "worst", "max", "clock",
+              "goal", "prototype", "unit", "what (worst at)");
 }
 
 void print_row(const BenchRow& row, const BenchSummary& s) {
   const std::string goal = row.goal ? "<= " + number(row.goal->most) + " " + name_of(row.goal->of) : "";
   const std::string where = s.items > 1 ? " (" + s.worst_item + ")" : "";
-  std::printf("%-28s %9s %9s %9s %9s  %-14s %9s  %-6s %s%s\n", row.name.c_str(), number(s.median).c_str(),
-              number(s.mean).c_str(), number(s.worst).c_str(), number(s.max).c_str(), goal.c_str(),
+  std::printf("%-28s %9s %9s %9s %9s %9s  %-14s %9s  %-6s %s%s\n", row.name.c_str(), number(s.median).c_str(),
+              number(s.mean).c_str(), number(s.worst).c_str(), number(s.max).c_str(),
+              s.wall_median ? number(*s.wall_median).c_str() : "", goal.c_str(),
               row.prototype ? number(*row.prototype).c_str() : "", std::string(row.unit).c_str(), row.what.c_str(),
               where.c_str());
   std::fflush(stdout);
@@ -151,7 +154,7 @@ void add_bench(Cli& cli) {
   CLI::App* sub = cli.add("bench",
                           "Measure how fast this program is: processor time, beside the goals and what a prototype "
                           "took.\nmedian, mean and worst are over the cases, of each case's median; max is the longest "
-                          "single run.",
+                          "single run, clock the median by the clock.",
                           "bench deform.sketch clone --json bench.json");
   sub->add_option("names", options->names, "only benchmarks whose names begin so")->type_name("NAME");
   sub->add_option("--cases", options->cases, "folder of curve pairs (default: the project's)")->type_name("DIR");

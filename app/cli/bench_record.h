@@ -25,8 +25,8 @@ private:
   Spent start_;
 };
 
-/// Which number of a benchmark its goal bounds.
-enum class BenchStatistic { kMedian, kMean, kWorst };
+/// Which number of a benchmark its goal bounds; kClock: wall_median, of what a person waits for.
+enum class BenchStatistic { kMedian, kMean, kWorst, kClock };
 
 struct BenchGoal {
   /// At most this, in the row's unit.
