@@ -152,7 +152,7 @@ Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPi
   const PixelGraph& graph = system.graph();
   if (options.mode != BlendMode::kMixed)
     set_membrane_side(ring, graph, solve);
-  else if (!set_mixed_side(read, graph.mask, solve))
+  else if (!set_mixed_side(read, graph.mask, solve, threads))
     return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
   if (watch.stopped()) return cancelled();
   if (way.membrane)

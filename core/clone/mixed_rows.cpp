@@ -1,30 +1,36 @@
 #include "core/clone/mixed_rows.h"
 
+#include "core/base/parallel.h"
 #include "core/clone/grid_kernels.h"
 #include "core/clone/pixel_planes.h"
+#include "core/clone/row_parts.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <span>
 #include <vector>
 
 namespace oversketch {
 namespace {
 
+/// Starting a thread costs as much as this many pixels.
+constexpr int kLeastPixelsPerThread = 30'000;
+
 /// The planes of a row, for all pixels that the mask's pixels in it and in the rows beside it touch.
 class PlaneRows {
 public:
-  PlaneRows(const ReadPixels& read, const Mask& mask) : read_(read), around_(grown(mask)) {}
+  PlaneRows(const ReadPixels& read, const Mask& around) : read_(read), runs_(around.runs()) {}
 
   /// From x on, where x and what follows to the end of a run of the mask next to it were asked for from left to right.
   PixelPlanes at(int x, int y) {
     Row& row = rows_[static_cast<std::size_t>(y & 3)];
     if (row.y != y || row.stride == 0) load(y, row);
-    const std::vector<Mask::Run>& runs = around_.runs();
-    while (runs[row.cursor].x1 <= x) {
-      row.offset += static_cast<std::size_t>(runs[row.cursor].x1 - runs[row.cursor].x0);
+    while (runs_[row.cursor].x1 <= x) {
+      row.offset += static_cast<std::size_t>(runs_[row.cursor].x1 - runs_[row.cursor].x0);
       ++row.cursor;
     }
-    return {row.planes.data() + row.offset + (x - runs[row.cursor].x0), row.stride};
+    return {row.planes.data() + row.offset + (x - runs_[row.cursor].x0), row.stride};
   }
 
   /// Before the runs of a row are walked again from the left.
@@ -45,21 +51,21 @@ private:
   };
 
   void load(int y, Row& row) {
-    const std::vector<Mask::Run>& runs = around_.runs();
-    auto run = std::lower_bound(runs.begin(), runs.end(), y, [](const Mask::Run& a, int value) { return a.y < value; });
+    auto run =
+        std::lower_bound(runs_.begin(), runs_.end(), y, [](const Mask::Run& a, int value) { return a.y < value; });
     row.y = y;
-    row.begin = row.cursor = static_cast<std::size_t>(run - runs.begin());
+    row.begin = row.cursor = static_cast<std::size_t>(run - runs_.begin());
     row.offset = row.stride = 0;
-    for (auto at = run; at != runs.end() && at->y == y; ++at)
+    for (auto at = run; at != runs_.end() && at->y == y; ++at)
       row.stride += static_cast<std::size_t>(at->x1 - at->x0);
     row.planes.resize(6 * row.stride);
     float* out = row.planes.data();
-    for (; run != runs.end() && run->y == y; out += run->x1 - run->x0, ++run)
+    for (; run != runs_.end() && run->y == y; out += run->x1 - run->x0, ++run)
       read_(*run, out, row.stride);
   }
 
   const ReadPixels& read_;
-  Mask around_;
+  const std::vector<Mask::Run>& runs_;
   std::array<Row, 4> rows_;
 };
 
@@ -113,45 +119,74 @@ PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) {
   return {planes.first + by, planes.stride};
 }
 
+/// A row of the mask: its runs.
+struct MaskRow {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t count = 0;
+};
+
+std::vector<MaskRow> list_rows(const std::vector<Mask::Run>& runs) {
+  std::vector<MaskRow> rows;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    if (run == 0 || runs[run].y != runs[run - 1].y) rows.push_back({run, run, 0});
+    rows.back().end = run + 1;
+    rows.back().count += static_cast<std::size_t>(runs[run].x1 - runs[run].x0);
+  }
+  return rows;
+}
+
 /// Sums up b, row by row from the top.
 class MixedSides {
 public:
-  MixedSides(const ReadPixels& read, const Mask& mask, MultigridSolve& solve)
-      : runs_(mask.runs()), solve_(solve), rows_(read, mask) {}
+  MixedSides(const ReadPixels& read, const Mask& mask, const Mask& around, MultigridSolve& solve)
+      : runs_(mask.runs()), solve_(solve), rows_(read, around) {}
 
+  /// @param part  of all `rows`.
   /// @returns whether all is finite.
-  bool run() {
-    std::size_t above = 0;
-    for (std::size_t begin = 0; begin < runs_.size();) {
-      std::size_t end = begin, count = 0;
-      for (; end < runs_.size() && runs_[end].y == runs_[begin].y; ++end)
-        count += static_cast<std::size_t>(runs_[end].x1 - runs_[end].x0);
+  bool run(std::span<const MaskRow> rows, std::span<const MaskRow> part) {
+    auto above = static_cast<std::size_t>(part.data() - rows.data());
+    // What another part computes, too.
+    if (above > 0) compare_down(rows[--above]);
+    for (const MaskRow& row : part) {
       std::swap(up_, down_);
-      down_.make_room(count);
+      compare_down(row);
       rows_.rewind();
-      RowBeside upper(runs_, above, runs_[begin].y - 1), lower(runs_, end, runs_[begin].y + 1);
+      const int y = runs_[row.begin].y;
+      RowBeside upper(runs_, rows[above].begin, y - 1), lower(runs_, row.end, y + 1);
       std::size_t offset = 0;
-      for (std::size_t k = begin; k < end; ++k) {
-        add_run(k, offset, upper, lower);
-        offset += static_cast<std::size_t>(runs_[k].x1 - runs_[k].x0);
+      for (std::size_t run = row.begin; run < row.end; ++run) {
+        add_run(run, offset, upper, lower);
+        offset += length(runs_[run]);
       }
-      above = begin;
-      begin = end;
+      above = static_cast<std::size_t>(&row - rows.data());
     }
     return is_finite_;
   }
 
 private:
+  /// The pairs of a row's pixels with those below.
+  void compare_down(const MaskRow& row) {
+    down_.make_room(row.count);
+    rows_.rewind();
+    std::size_t offset = 0;
+    for (std::size_t run = row.begin; run < row.end; ++run) {
+      const Mask::Run& here = runs_[run];
+      kernels_.surplus(down_.plane(0) + offset, down_.stride, rows_.at(here.x0, here.y), rows_.at(here.x0, here.y + 1),
+                       length(here));
+      offset += length(here);
+    }
+  }
+
   void add_run(std::size_t index, std::size_t offset, RowBeside& upper, RowBeside& lower) {
     const Mask::Run& here = runs_[index];
-    const auto count = static_cast<std::size_t>(here.x1 - here.x0);
+    const std::size_t count = length(here);
     const PixelPlanes row = moved(rows_.at(here.x0 - 1, here.y), 1);
     const PixelPlanes above = moved(rows_.at(here.x0 - 1, here.y - 1), 1);
     const PixelPlanes below = moved(rows_.at(here.x0 - 1, here.y + 1), 1);
     sums_.make_room(count);
     along_.make_room(count + 1);
     kernels_.surplus(along_.plane(0), along_.stride, moved(row, -1), row, count + 1);
-    kernels_.surplus(down_.plane(0) + offset, down_.stride, row, below, count);
     kernels_.add_pairs(sums_.plane(0), sums_.stride, along_.plane(0), along_.stride, down_.plane(0) + offset,
                        down_.stride, count);
     add_ring(row, -1, 0);
@@ -195,6 +230,8 @@ private:
     for (std::size_t k = 0; k < 3; ++k)
       sums_.plane(k)[sum] += source[(3 + k) * outside.stride] - source[k * outside.stride];
   }
+
+  static std::size_t length(const Mask::Run& run) { return static_cast<std::size_t>(run.x1 - run.x0); }
 
   const std::vector<Mask::Run>& runs_;
   MultigridSolve& solve_;
@@ -248,8 +285,16 @@ private:
 
 } // namespace
 
-bool set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve) {
-  return MixedSides(read, mask, solve).run();
+bool set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve, int threads) {
+  const Mask around = grown(mask);
+  const std::vector<MaskRow> rows = list_rows(mask.runs());
+  const auto most = static_cast<int>(std::min<std::int64_t>(threads, 1 + mask.count() / kLeastPixelsPerThread));
+  const auto parts = cut_rows(std::span(rows), most, [](const MaskRow& row) { return row.count; });
+  std::atomic<bool> is_finite = true;
+  run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
+    if (!MixedSides(read, mask, around, solve).run(rows, parts[static_cast<std::size_t>(i)])) is_finite = false;
+  });
+  return is_finite;
 }
 
 ReadPixels read_pair(const PlacedPair& pair) {

@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
+
 namespace oversketch {
 namespace {
 
@@ -113,6 +116,32 @@ TEST(Mixed, HasTheSidesOfTheDefinitionOnAnyMask) {
       EXPECT_LT(255 * error_of(correction, exact.solve(scene, options), mask), kind == 3 ? 0.1 : 0.02)
           << name << " " << kind;
     }
+  }
+}
+
+TEST(Mixed, HasTheSameSidesWithAnyThreads) {
+  for (const Mask& mask : {rect_mask({3, 5, 500, 300}), ring_mask(300, 300, 420, 200)}) {
+    ASSERT_GT(mask.count(), 120'000);
+    const MixedScene scene = noisy_scene(mask);
+    const PlacedPair pair(scene.target, scene.source, scene.dx, scene.dy, with_mode(BlendMode::kMixed));
+    const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
+    const auto values_by = [&](int threads) {
+      MultigridSolve solve(*grids);
+      EXPECT_TRUE(set_mixed_side(read_pair(pair), mask, solve, threads));
+      EXPECT_TRUE(solve.solve(1, 1, 1).ok());
+      std::vector<std::vector<Float4>> values;
+      for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+        values.emplace_back(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0));
+        solve.get(run, values.back());
+      }
+      return values;
+    };
+    const auto is_same = [](const std::vector<Float4>& a, const std::vector<Float4>& b) {
+      return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+    };
+    const auto alone = values_by(1);
+    for (const int threads : {2, 3, 4})
+      EXPECT_TRUE(std::ranges::equal(values_by(threads), alone, is_same)) << threads;
   }
 }
 
