@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -100,6 +101,8 @@ public:
   /// 0 or the system's error, as below.
   int error() const { return error_; }
   int fill(std::span<const std::byte> bytes, const struct stat* old, const Watch& watch = {}) {
+    // The owner stays where this user may give files away; permissions after it, which it would take from them.
+    if (old != nullptr) (void)!::fchown(file_.number(), old->st_uid, old->st_gid);
     if (old != nullptr && ::fchmod(file_.number(), old->st_mode & 07777) != 0) return errno;
     constexpr std::size_t kPiece = 4 << 20;
     for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
@@ -140,8 +143,18 @@ private:
 };
 
 int write_in_place(const fs::path& path, std::span<const std::byte> bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (!file.open()) return errno;
+  // A pipe that nobody reads would never open: whoever is to read it has a while to come.
+  constexpr int kTries = 200;
+  const timespec pause{0, 10'000'000};
+  int number = -1;
+  for (int i = 0; i < kTries && number < 0; ++i) {
+    if (i > 0) ::nanosleep(&pause, nullptr);
+    number = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (number < 0 && errno != ENXIO) return errno;
+  }
+  Descriptor file(number);
+  if (!file.open()) return EPIPE;
+  if (::fcntl(file.number(), F_SETFL, ::fcntl(file.number(), F_GETFL) & ~O_NONBLOCK) != 0) return errno;
   if (const int error = write_all(file.number(), bytes)) return error;
   return file.close();
 }

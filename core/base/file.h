@@ -23,7 +23,8 @@ bool lies_below(const std::filesystem::path& folder, const std::filesystem::path
 
 /// Replaces the file whole or not at all: written to a fresh name beside it, synced, renamed.  A failure leaves the old
 /// file as it was and no other file behind.  A link stays a link: the file it leads to is replaced.  Permissions of a
-/// file that was there are kept.  What is no file at all (a device, a pipe) is written to as it stands.
+/// file that was there are kept.  What is no file at all (a device, a pipe) is written to as it stands; a pipe that
+/// nobody comes to read within two seconds is an error.
 /// @threads may be called from several threads, for the same path too: the last one wins whole.
 /// @errors file.write, with the system's reason; `where` is the path.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);

@@ -19,15 +19,21 @@ bool opens(Json::parse_event_t event) {
 
 } // namespace
 
-Result<Json> parse_json(std::string_view text, int most_depth) {
+Result<Json> parse_json(std::string_view text, int most_depth, std::size_t most_bytes) {
   bool deep = false;
-  const auto watch_depth = [&](int depth, Json::parse_event_t event, Json&) {
+  std::size_t bytes = 0;
+  const auto watch_size = [&](int depth, Json::parse_event_t event, Json& parsed) {
     deep |= depth >= most_depth && opens(event);
-    return !deep;
+    // Lists grow by doubling; a key stands in a pair.
+    if (opens(event) || event == Json::parse_event_t::value) bytes += 3 * sizeof(Json);
+    if (event == Json::parse_event_t::key) bytes += 6 * sizeof(Json);
+    if (parsed.is_string()) bytes += parsed.get_ref<const std::string&>().size();
+    return !deep && bytes <= most_bytes;
   };
   try {
-    Json json = Json::parse(text, watch_depth);
+    Json json = Json::parse(text, watch_size);
     if (deep) return too_deep(most_depth);
+    if (bytes > most_bytes) return Error{"json.too-large", "its values need more memory than the program may take", ""};
     return json;
   } catch (const Json::exception& problem) {
     if (deep) return too_deep(most_depth);

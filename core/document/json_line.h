@@ -19,9 +19,9 @@ using Json = nlohmann::ordered_json;
 /// @errors script.syntax (with the column), script.not-an-object, script.repeated-key, json.too-deep.
 Result<Json> parse_json_line(std::string_view line);
 
-/// Any JSON text with values within values at most `most_depth` deep.
-/// @errors script.syntax (with line and column), json.too-deep.
-Result<Json> parse_json(std::string_view text, int most_depth);
+/// Any JSON text with values within values at most `most_depth` deep, which takes at most about `most_bytes` of memory.
+/// @errors script.syntax (with line and column), json.too-deep, json.too-large.
+Result<Json> parse_json(std::string_view text, int most_depth, std::size_t most_bytes);
 
 /// The library's words for what is wrong, without its own error number.
 std::string json_reason(const Json::exception& problem);

@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -44,11 +46,32 @@ Result<fs::path> make_folder(const fs::path& state_folder) {
   return journal_write_error(EEXIST, journals);
 }
 
+/// 0 or the system's error.
+int write_whole(int file, std::span<const char> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(file, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+  return 0;
+}
+
 Result<void> copy_base(const fs::path& base, const fs::path& to) {
-  std::error_code failure;
-  fs::copy_file(base, to, failure);
-  if (failure) return journal_write_error(failure.value(), to);
-  if (const int error = sync_path(to)) return journal_write_error(error, to);
+  const OpenFile from(::open(base.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!from.open()) return journal_write_error(errno, base);
+  const OpenFile copy(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (!copy.open()) return journal_write_error(errno, to);
+  std::vector<char> piece(1 << 20);
+  for (;;) {
+    const ssize_t got = ::read(from.number(), piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return journal_write_error(errno, base);
+    if (got == 0) break;
+    if (const int error = write_whole(copy.number(), std::span(piece).first(static_cast<std::size_t>(got))))
+      return journal_write_error(error, to);
+  }
+  if (::fsync(copy.number()) != 0) return journal_write_error(errno, to);
   return {};
 }
 
@@ -86,19 +109,27 @@ Journal& Journal::operator=(Journal&&) noexcept = default;
 Result<Journal> Journal::begin(const fs::path& state_folder, const std::string& name, const fs::path& base) {
   const auto folder = make_folder(state_folder);
   if (!folder) return folder.error();
-  auto data = std::make_unique<Data>(*folder);
-  data->lock = take_journal_lock(*folder, true);
-  if (!data->lock.open()) return journal_write_error(errno, *folder / kJournalLock);
+  auto journal = begin_in(*folder, name, base);
+  std::error_code ignored;
+  // Half a journal is none, and takes room where there may be none left.
+  if (!journal) fs::remove_all(*folder, ignored);
+  return journal;
+}
+
+Result<Journal> Journal::begin_in(const fs::path& folder, const std::string& name, const fs::path& base) {
+  auto data = std::make_unique<Data>(folder);
+  data->lock = take_journal_lock(folder, true);
+  if (!data->lock.open()) return journal_write_error(errno, folder / kJournalLock);
   std::string text = std::string(kScriptHeader) + "\n" + std::string(kNameComment) + clean_text(name) + "\n";
   if (!base.empty()) {
-    if (auto copied = copy_base(base, *folder / kJournalBase); !copied) return copied.error();
+    if (auto copied = copy_base(base, folder / kJournalBase); !copied) return copied.error();
     text += print_step(OpenStep{kJournalBase}) + "\n";
   }
   // Last, since a folder without it is no journal yet.
-  if (auto written = write_file(*folder / kJournalFile, text); !written)
+  if (auto written = write_file(folder / kJournalFile, text); !written)
     return Error{"journal.write", written.error().sentence, written.error().where};
   if (auto opened = data->open_for_appending(text.size()); !opened) return opened.error();
-  (void)sync_path(folder->parent_path());
+  (void)sync_path(folder.parent_path());
   return Journal(std::move(data));
 }
 
@@ -160,12 +191,7 @@ Result<void> Journal::Data::write_waiting() {
 int Journal::Data::append_whole(std::string_view line) {
   // Half a line may stand there from a try that failed.
   if (::ftruncate(file.number(), static_cast<off_t>(size)) != 0) return errno;
-  for (std::string_view rest = line; !rest.empty();) {
-    const ssize_t put = ::write(file.number(), rest.data(), rest.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return errno;
-    rest.remove_prefix(static_cast<std::size_t>(put));
-  }
+  if (const int error = write_whole(file.number(), line)) return error;
   if (::fdatasync(file.number()) != 0) return errno;
   size += line.size();
   return 0;

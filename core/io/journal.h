@@ -57,6 +57,8 @@ private:
   friend struct JournalRecovery;
   struct Data;
   explicit Journal(std::unique_ptr<Data> data);
+  static Result<Journal> begin_in(const std::filesystem::path& folder, const std::string& name,
+                                  const std::filesystem::path& base);
   std::unique_ptr<Data> data_;
 };
 

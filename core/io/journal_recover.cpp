@@ -125,7 +125,8 @@ public:
 
   Result<void> run(std::string_view line) {
     if (line.starts_with(kSavedComment)) session.mark_saved();
-    if (!is_step(line)) return {};
+    // What is neither a step nor a comment is damage: steps may have been lost with it.
+    if (line.empty() || line.front() == '#') return {};
     const auto step = parse_step(line);
     if (!step) return step.error();
     if (const auto* open = std::get_if<OpenStep>(&*step)) return run_open(*open);

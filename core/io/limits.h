@@ -16,7 +16,7 @@ struct IoLimits {
   std::size_t xml_bytes = 4 << 20;
   int xml_depth = 32;
   /// Of oversketch/document.json, unpacked, and of values in values.
-  std::size_t json_bytes = 64 << 20;
+  std::size_t json_bytes = 256 << 20;
   int json_depth = 16;
   /// Memory for all pictures that are open at once, 16 bytes a pixel, and for a part while it is unpacked.
   std::size_t memory_bytes = std::size_t{8} << 30;

@@ -61,20 +61,23 @@ struct OraFile::Data {
   std::vector<Layer> layers;
   /// The part that holds each layer.
   std::vector<std::string> sources;
+  std::vector<Error> left_out;
 
-  Result<void> add_layers(const std::vector<StackNode>& nodes, int x, int y, bool visible) {
+  void add_layers(const std::vector<StackNode>& nodes, int x, int y, bool visible) {
     for (const StackNode& node : nodes) {
       const bool shown = visible && node.visible;
       if (node.is_group) {
-        if (auto added = add_layers(node.children, x + node.x, y + node.y, shown); !added) return added;
+        add_layers(node.children, x + node.x, y + node.y, shown);
         continue;
       }
       const auto size = read_part_size(archive, node.source);
-      if (!size) return size.error();
+      if (!size) {
+        left_out.push_back(size.error());
+        continue;
+      }
       layers.push_back({node.name, {x + node.x, y + node.y, size->width, size->height}, shown, node.opacity});
       sources.push_back(node.source);
     }
-    return {};
   }
 
   /// @param canvases  that are there already, each of the whole picture's size.
@@ -122,8 +125,8 @@ Result<OraFile> OraFile::open(const std::filesystem::path& path, const IoLimits&
   if (!xml) return xml.error();
   auto stack = parse_stack(text_of(*xml), limits);
   if (!stack) return at(archive->place("stack.xml"), stack.error());
-  auto data = std::make_unique<Data>(Data{std::move(*archive), std::move(*stack), {}, {}});
-  if (auto added = data->add_layers(data->stack.layers, 0, 0, true); !added) return added.error();
+  auto data = std::make_unique<Data>(Data{std::move(*archive), std::move(*stack), {}, {}, {}});
+  data->add_layers(data->stack.layers, 0, 0, true);
   return OraFile(std::move(data));
 }
 
@@ -135,6 +138,9 @@ int OraFile::height() const {
 }
 const std::vector<OraFile::Layer>& OraFile::layers() const {
   return data_->layers;
+}
+const std::vector<Error>& OraFile::left_out() const {
+  return data_->left_out;
 }
 const Archive& OraFile::archive() const {
   return data_->archive;

@@ -31,6 +31,7 @@ public:
     double opacity = 1;
   };
 
+  /// A layer whose picture is not there or cannot be read is left_out(), and no error: the merged picture may be good.
   /// @errors those of Archive::open; project.damaged, project.too-large, project.missing-part, each with the part.
   static Result<OraFile> open(const std::filesystem::path& path, const IoLimits& limits = {});
   ~OraFile();
@@ -41,6 +42,8 @@ public:
   int height() const;
   /// Lowest first; groups taken apart.
   const std::vector<Layer>& layers() const;
+  /// What is wrong with each layer that is not among layers().
+  const std::vector<Error>& left_out() const;
   /// The pixels of a layer, without its opacity.
   /// @param index  of layers() (CHECK).
   /// @errors project.damaged, project.too-large, those of decode_image.

@@ -18,6 +18,10 @@ std::string clean_text(const std::string& text) {
   std::string clean = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
   for (char& c : clean)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  // U+FFFE and U+FFFF, which XML does not allow.
+  for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
+    for (std::size_t at = 0; (at = clean.find(none, at)) != std::string::npos;)
+      clean.replace(at, 3, " ");
   return clean;
 }
 

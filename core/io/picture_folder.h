@@ -37,7 +37,7 @@ private:
 /// Names a picture by its file alone, without the folders of this machine; "@target" stays.
 std::string portable_name(const std::string& name);
 
-/// The text in UTF-8 without control characters: what is neither is replaced.
+/// The text in UTF-8 without control characters and what XML does not allow: what is neither is replaced.
 std::string clean_text(const std::string& text);
 
 } // namespace oversketch

@@ -40,13 +40,16 @@ struct SaveOptions {
   /// 0: as many as the watch allows; 4 at most.
   int threads = 0;
   KeptHistory history{};
+  /// What load_project() will hold the file against.
+  IoLimits limits{};
 };
 
 /// Writes an OpenRaster file that holds the project (contract: "Project file"): whole or not at all, the file that was
-/// there kept as NAME~.  Equal contents give equal bytes.
+/// there kept as NAME~.  Equal contents give equal bytes.  Where all of the history would be more than load_project()
+/// takes, the oldest steps are left out.
 ///
-/// @errors project.newer (the file there was saved by a newer program), those of encode_png and write_file, cancelled;
-///   the old file is as it was then.
+/// @errors project.newer (the file there was saved by a newer program), project.too-large (what load_project() would
+///   refuse), those of encode_png and write_file, cancelled; the old file is as it was then.
 /// @cost 12 megapixels with two layers, a grainy picture: 1.8 s of processor time, most of it packing pictures on all
 ///   threads; 46 MB.
 /// @threads pure but for the file.

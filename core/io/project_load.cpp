@@ -82,6 +82,10 @@ Result<LoadedProject> open_as_picture(const fs::path& path, const LoadOptions& o
   begin.target = ImageRef{portable_name(path.filename().string()), std::move(*picture)};
   if (auto done = loaded.session.execute(begin, watch); !done) return done.error();
   loaded.foreign = true;
+  if (const auto& left_out = file->left_out(); !left_out.empty())
+    loaded.message = std::to_string(left_out.size()) + (left_out.size() == 1 ? " layer" : " layers") +
+                     " cannot be read, the whole picture can: " + left_out.front().where + ": " +
+                     left_out.front().sentence;
   return loaded;
 }
 

@@ -225,9 +225,10 @@ struct ProjectText::Data {
       curves.push_back(read_curve(flat));
     std::vector<Layer> layers;
     std::size_t points = 0;
-    // A layer is copied wherever it stands: counted before it is.
+    // A layer is copied wherever it stands: counted before any is.
     const auto count = [&](const Layer& layer) {
-      points += layer.outline.size() + layer.sketch.size() + 16;
+      constexpr std::size_t kBesides = 2 * sizeof(Layer) / sizeof(Point);
+      points += layer.outline.size() + layer.sketch.size() + 4 * layer.pins.size() + kBesides;
       if (points > most_points) damage("its steps have more points than fit into memory");
     };
     for (const Json& json : list(project, "layers")) {
@@ -242,11 +243,11 @@ struct ProjectText::Data {
       saved.solves.push_back(std::move(solve));
     }
     const Json& steps = list(project, "steps");
-    for (const Json& json : steps) {
+    for (const Json& json : steps)
       for (const Json& each : list(json, "layers"))
         count(layers[index(each, layers.size(), "layers")]);
+    for (const Json& json : steps)
       saved.steps.push_back(read_step(json, layers, saved.solves.size(), images));
-    }
     expect(!saved.steps.empty(), "it has no steps");
     saved.cursor = index(member(project, "cursor"), saved.steps.size(), "cursor");
     return saved;
@@ -264,10 +265,13 @@ const std::vector<ProjectText::Picture>& ProjectText::pictures() const {
 
 Result<int> peek_project_version(std::string_view start) {
   constexpr std::string_view kStart = "{\"version\":";
+  const std::string_view head = start.substr(0, kVersionBytes);
+  if (!head.starts_with(kStart)) return damaged("", "it does not begin with its version");
+  const std::size_t number = std::min(head.find_first_not_of(' ', kStart.size()), head.size());
   int version = 0;
-  if (start.starts_with(kStart))
-    std::from_chars(start.data() + kStart.size(), start.data() + std::min(start.size(), kVersionBytes), version);
-  if (version < 1) return damaged("", "it does not begin with its version");
+  const auto [end, failure] = std::from_chars(head.data() + number, head.data() + head.size(), version);
+  const bool is_whole = end != head.data() + head.size() && (*end == ',' || *end == '}' || *end == ' ');
+  if (failure != std::errc() || !is_whole || version < 1) return damaged("", "its version is no whole number");
   return version;
 }
 
@@ -281,7 +285,9 @@ Result<ProjectText> ProjectText::parse(std::string_view text, const IoLimits& li
                  ""};
   auto data = std::make_unique<Data>();
   data->most_points = limits.memory_bytes / 4 / sizeof(Point);
-  auto parsed = parse_json(text, limits.json_depth);
+  auto parsed = parse_json(text, limits.json_depth, limits.memory_bytes / 4);
+  if (!parsed && parsed.error().code == "json.too-large")
+    return Error{"project.too-large", parsed.error().sentence, ""};
   if (!parsed) return damaged("", parsed.error().sentence);
   data->project = std::move(*parsed);
   try {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <utility>
 
 namespace oversketch {
 namespace {
@@ -122,6 +123,24 @@ private:
   std::vector<std::function<Result<void>()>> jobs_;
 };
 
+/// Of what could be written and never be read again.
+Error too_large(const std::string& what, std::uintmax_t most) {
+  return {"project.too-large", what + ", and no more than " + std::to_string(most) + " can be opened again", ""};
+}
+
+/// document.json with as many of the steps as it may have bytes for.
+Result<std::string> print_what_fits(const SavedSession& saved, const std::map<Hash, StoredPicture>& pictures,
+                                    std::size_t most_bytes) {
+  std::string text = print_project(saved, pictures);
+  for (std::size_t steps = saved.steps.size(); text.size() > most_bytes && steps > 1;) {
+    steps /= 2;
+    text = print_project(shortened(saved, steps), pictures);
+  }
+  if (text.size() > most_bytes)
+    return too_large("its curves and names take " + std::to_string(text.size()) + " bytes", most_bytes);
+  return text;
+}
+
 Result<std::vector<ArchivePart>> make_parts(const ProjectContents& contents, const SaveOptions& options,
                                             const Watch& watch) {
   Encoder encoder;
@@ -145,12 +164,20 @@ Result<std::vector<ArchivePart>> make_parts(const ProjectContents& contents, con
   auto encoded = encoder.run(choose_threads(options.threads > 0 ? options.threads : watch.threads), watch);
   if (!encoded) return encoded.error();
 
+  const auto text = print_what_fits(contents.saved, pictures, options.limits.json_bytes);
+  if (!text) return text.error();
+  const std::string stack = print_stack(make_stack(contents, names));
+  if (stack.size() > options.limits.xml_bytes)
+    return too_large("its layers' names take " + std::to_string(stack.size()) + " bytes", options.limits.xml_bytes);
   std::vector<ArchivePart> parts;
   parts.push_back({"mimetype", bytes_of("image/openraster"), true});
-  parts.push_back({"stack.xml", bytes_of(print_stack(make_stack(contents, names))), false});
-  parts.push_back({"oversketch/document.json", bytes_of(print_project(contents.saved, pictures)), false});
+  parts.push_back({"stack.xml", bytes_of(stack), false});
+  parts.push_back({"oversketch/document.json", bytes_of(*text), false});
   for (ArchivePart& part : *encoded)
     parts.push_back(std::move(part));
+  if (std::cmp_greater(parts.size(), options.limits.entries))
+    return too_large("it has " + std::to_string(parts.size()) + " pictures",
+                     static_cast<std::uintmax_t>(options.limits.entries));
   return parts;
 }
 
@@ -191,6 +218,9 @@ Result<void> write_project(const ProjectContents& contents, const fs::path& path
   const auto archive = make_archive(std::move(*parts));
   if (!archive) return at(path.string(), archive.error());
   archiving.stop();
+  if (archive->size() > options.limits.file_bytes)
+    return at(path.string(),
+              too_large("it has " + std::to_string(archive->size()) + " bytes", options.limits.file_bytes));
   if (watch.stopped()) return cancelled();
   const StageTimer writing(watch.times, "save.write");
   WriteOptions how;

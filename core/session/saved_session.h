@@ -44,4 +44,8 @@ struct KeptHistory {
   std::size_t image_bytes = std::size_t{1} << 30;
 };
 
+/// With at most that many of its steps, the youngest, but always the present one; and with the solves that those need.
+/// @param steps  at least 1 (CHECK).
+SavedSession shortened(const SavedSession& saved, std::size_t steps);
+
 } // namespace oversketch

@@ -48,6 +48,30 @@ Error inconsistent(const std::string& what) {
 
 } // namespace
 
+SavedSession shortened(const SavedSession& saved, std::size_t steps) {
+  CHECK(steps >= 1 && saved.cursor < saved.steps.size(), "the present step is kept");
+  const std::size_t first = std::min(saved.steps.size() - std::min(steps, saved.steps.size()), saved.cursor);
+  const std::size_t last = std::min(saved.steps.size(), first + steps);
+  std::vector<bool> is_needed(saved.solves.size());
+  for (std::size_t i = first; i < last; ++i)
+    for (const auto& [id, solve] : saved.steps[i].solves)
+      for (std::optional<std::size_t> at = solve; at && !is_needed[*at]; at = saved.solves[*at].warm)
+        is_needed[*at] = true;
+  SavedSession out;
+  std::vector<std::size_t> place(saved.solves.size());
+  for (std::size_t i = 0; i < saved.solves.size(); ++i) {
+    if (!is_needed[i]) continue;
+    place[i] = out.solves.size();
+    SavedSession::Solve& solve = out.solves.emplace_back(saved.solves[i]);
+    if (solve.warm) solve.warm = place[*solve.warm];
+  }
+  for (std::size_t i = first; i < last; ++i)
+    for (auto& [id, solve] : out.steps.emplace_back(saved.steps[i]).solves)
+      solve = place[solve];
+  out.cursor = saved.cursor - first;
+  return out;
+}
+
 SavedSession Session::saved(const KeptHistory& kept) const {
   SavedSession saved;
   if (history_.entries().empty()) return saved;

@@ -145,6 +145,12 @@ TEST_F(FileTest, WhatIsNoFileIsWrittenToAndStays) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
+TEST_F(FileTest, APipeThatNobodyReadsIsAnError) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(write_file(pipe, "to nobody").error().code, "file.write");
+}
+
 TEST_F(FileTest, ManyWritersLeaveOneWholeFile) {
   const fs::path path = folder_ / "a.txt";
   std::vector<std::thread> writers;

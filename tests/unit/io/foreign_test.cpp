@@ -54,11 +54,26 @@ TEST_F(Foreign, what_is_no_openraster_file_is_an_error) {
   parts = whole;
   parts.erase(parts.begin() + 1);
   EXPECT_EQ(open().error().code, "project.missing-part");
-  begin("<layer src='data/blue.png'/>");
-  EXPECT_EQ(open().error().code, "project.missing-part");
-  EXPECT_EQ(open().error().where, (folder / "a.ora").string() + ": data/blue.png");
-  begin("<layer src='stack.xml'/>");
-  EXPECT_EQ(open().error().code, "image.unknown-format");
+}
+
+TEST_F(Foreign, a_layer_that_cannot_be_read_is_left_out_where_the_whole_picture_is_there) {
+  begin("<layer src='data/blue.png'/><layer src='data/red.png'/><layer src='stack.xml'/>");
+  const auto alone = open()->load_picture();
+  ASSERT_FALSE(alone.ok());
+  EXPECT_EQ(alone.error().code, "image.unknown-format") << "the lowest is laid first";
+  const Image merged = rounded(wavy_image(20, 10, 1), 255);
+  add("mergedimage.png", merged);
+  const auto file = open();
+  ASSERT_EQ(file->layers().size(), 1U);
+  ASSERT_EQ(file->left_out().size(), 2U);
+  EXPECT_EQ(file->left_out()[0].code, "image.unknown-format");
+  EXPECT_EQ(file->left_out()[1].code, "project.missing-part");
+  EXPECT_EQ(file->left_out()[1].where, (folder / "a.ora").string() + ": data/blue.png");
+  EXPECT_EQ(*file->load_layer(0), red);
+  const auto loaded = load_project(folder / "a.ora");
+  ASSERT_TRUE(loaded.ok());
+  EXPECT_EQ(loaded->session.document().target.image, merged);
+  EXPECT_TRUE(loaded->message.starts_with("2 layers")) << loaded->message;
 }
 
 TEST_F(Foreign, its_merged_picture_is_the_target) {

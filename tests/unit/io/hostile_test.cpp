@@ -246,8 +246,15 @@ TEST_F(Hostile, few_bytes_that_stand_for_many_points_are_refused) {
   set_text(kDocument, json.dump());
   LoadOptions little;
   little.limits.memory_bytes = 8 << 20;
-  EXPECT_EQ(refusal(little).code, "project.damaged");
+  EXPECT_EQ(refusal(little).code, "project.too-large") << "the text's values";
   EXPECT_EQ(refusal().code, "accepted");
+
+  json["steps"].back()["layers"] = std::vector<int>(100'000, 0);
+  set_text(kDocument, json.dump());
+  little.limits.memory_bytes = 128 << 20;
+  const Error layers = refusal(little);
+  EXPECT_EQ(layers.code, "project.damaged");
+  EXPECT_NE(layers.sentence.find("points"), std::string::npos) << layers.sentence;
 }
 
 /// All leaves of a JSON value.

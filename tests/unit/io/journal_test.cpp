@@ -56,6 +56,7 @@ TEST_F(JournalTest, what_cannot_be_written_or_read_is_an_error) {
   folder.write("file", "no folder");
   EXPECT_EQ(Journal::begin(folder / "file", "a").error().code, "journal.write");
   EXPECT_EQ(Journal::begin(folder.path(), "a", folder / "none.ora").error().code, "journal.write");
+  EXPECT_TRUE(fs::is_empty(folder / "journals")) << "half a journal";
   EXPECT_EQ(recover_journal(folder / "none").error().code, "journal.unreadable");
   EXPECT_TRUE(list_abandoned_journals(folder / "none").empty());
   EXPECT_EQ(remove_old_journals(folder / "none", {}), 0);
@@ -202,6 +203,24 @@ TEST_F(JournalTest, replays_up_to_the_line_that_is_damaged_and_keeps_the_rest) {
   EXPECT_TRUE(recovered.session.document().layers[0].pins.empty());
   EXPECT_EQ(text(left), bad.substr(0, at));
   EXPECT_TRUE(fs::exists(left / "journal.jsonl~"));
+}
+
+TEST_F(JournalTest, passes_over_no_line_that_is_neither_a_step_nor_a_comment) {
+  Session session = small_session();
+  must_run(session, LayerMove{{}, 7, 0});
+  fs::path left;
+  {
+    Journal journal = begin();
+    left = journal.folder();
+    append_from(journal, session, 0);
+  }
+  std::string bad = text(left);
+  const auto at = bad.find("{\"do\":\"pin.add\""), end = bad.find('\n', at);
+  ASSERT_NE(at, std::string::npos);
+  set_text(left, bad.replace(at, end - at, "garbage"));
+  const RecoveredJournal recovered = recover(left);
+  EXPECT_EQ(recovered.session.history().entries().size(), 4U);
+  EXPECT_NE(recovered.message.find("line 7 of 9"), std::string::npos) << recovered.message;
 }
 
 TEST_F(JournalTest, reads_nothing_outside_its_folder) {

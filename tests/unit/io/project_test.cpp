@@ -1,4 +1,5 @@
 #include "core/io/project.h"
+#include "core/io/project_text.h"
 
 #include "core/document/command_table.h"
 #include "core/image/compare.h"
@@ -217,6 +218,60 @@ TEST(Project, a_history_that_is_cut_keeps_the_present_and_what_led_there) {
   must_run(session, TargetSet{loaded_ref("other.png", wavy_image(100, 100, 3))});
   save(session, folder / "a.ora", options);
   EXPECT_EQ(load(folder / "a.ora").history().entries().size(), 1u) << "the step before has another target";
+}
+
+TEST(Project, what_is_saved_can_be_opened_again) {
+  const TempFolder folder;
+  Session session = small_session();
+  for (int i = 0; i < 40; ++i)
+    must_run(session, SketchSet{{}, blob({60, 42.0 + 0.1 * i}, 27)});
+  ASSERT_TRUE(session.undo(3).ok());
+  SaveOptions options;
+  save(session, folder / "whole.ora", options);
+  const auto archive = Archive::open(folder / "whole.ora", {});
+  const std::size_t whole = archive->read("oversketch/document.json", 1 << 24)->size();
+
+  LoadOptions reader;
+  reader.limits.json_bytes = options.limits.json_bytes = whole / 2;
+  save(session, folder / "a.ora", options);
+  auto again = load_project(folder / "a.ora", reader);
+  ASSERT_TRUE(again.ok()) << to_string(again.error());
+  EXPECT_GT(again->session.history().entries().size(), 5U);
+  EXPECT_LT(again->session.history().entries().size(), session.history().entries().size());
+  EXPECT_EQ(again->session.document(), session.document());
+  EXPECT_EQ(picture_of(again->session), picture_of(session));
+  ASSERT_TRUE(again->session.redo(3).ok());
+
+  const std::string good = folder.read("a.ora");
+  for (const auto spoil :
+       {+[](IoLimits& limits) { limits.json_bytes = 1000; }, +[](IoLimits& limits) { limits.xml_bytes = 100; },
+        +[](IoLimits& limits) { limits.entries = 5; }, +[](IoLimits& limits) { limits.file_bytes = 1000; }}) {
+    options.limits = {};
+    spoil(options.limits);
+    const auto refused = save_project(session, folder / "a.ora", options);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, "project.too-large");
+    EXPECT_EQ(folder.read("a.ora"), good);
+  }
+}
+
+TEST(Project, names_make_sound_xml) {
+  const TempFolder folder;
+  Session session = small_session();
+  must_run(session, LayerRename{{}, "a\xEF\xBF\xBE\xEF\xBF\xBF\x01z"});
+  save(session, folder / "a.ora");
+  const auto stack = Archive::open(folder / "a.ora", {})->read("stack.xml", 10'000);
+  const std::string text(reinterpret_cast<const char*>(stack->data()), stack->size());
+  EXPECT_NE(text.find("a   z"), std::string::npos) << text;
+  EXPECT_EQ(load(folder / "a.ora").document(), session.document()) << "the name itself stays";
+}
+
+TEST(Project, a_version_is_a_whole_number) {
+  for (const char* newer : {"{\"version\":2,", "{\"version\": 12 ,", "{\"version\":2}"})
+    EXPECT_GT(peek_project_version(newer).value(), 1) << newer;
+  for (const char* none : {"{\"version\":1.5,", "{\"version\":0,", "{\"version\":1e3,",
+                           "{\"version\":", "{\"other\":1,", "{\"version\":-1,", "{\"version\":99999999999999999999,"})
+    EXPECT_EQ(peek_project_version(none).error().code, "project.damaged") << none;
 }
 
 TEST(Project, a_newer_project_is_shown_and_never_written_over) {
