@@ -26,15 +26,16 @@ public:
     /// What led here from the entry before.
     Command command;
     std::string label;
-    /// Bytes of the images that the entry before does not have.
-    std::size_t new_image_bytes = 0;
+    /// Of its document without images, and of the images that the entry before does not have.
+    std::size_t new_bytes = 0;
   };
 
   struct Limits {
     /// Never fewer undo steps than this…
     std::size_t least_steps = 50;
-    /// …and beyond them only while images that the present document does not share take no more than this.
-    std::size_t image_bytes = std::size_t{2} << 30;
+    /// …and beyond them only while the documents, and images that the present one does not share, take no more than
+    /// this.
+    std::size_t bytes = std::size_t{2} << 30;
     /// Never more steps than this.
     std::size_t most_steps = 10'000;
   };
@@ -83,8 +84,8 @@ private:
   std::uint64_t next_id_ = 1;
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
-  /// Sum of the entries' new_image_bytes: never less than what the budget counts.
-  std::size_t image_bytes_ = 0;
+  /// Sum of the entries' new_bytes: never less than what the budget counts.
+  std::size_t bytes_ = 0;
   /// Index of the saved entry, 0 in a new document; none when it was dropped.
   std::optional<std::size_t> saved_;
 };

@@ -29,7 +29,7 @@ bool answers(const Action& action) {
 
 History::Limits history_limits(const Preferences& preferences) {
   History::Limits limits;
-  limits.image_bytes = static_cast<std::size_t>(preferences.history_mib * (1 << 20));
+  limits.bytes = static_cast<std::size_t>(preferences.history_mib * (1 << 20));
   return limits;
 }
 

@@ -21,7 +21,7 @@ struct Preferences {
   Smoothing smoothing = Smoothing::kBasic;
   /// How near a stroke's ends must come to a curve to replace a part of it, screen pixels, 1…100.
   double tolerance_px = 10;
-  /// Of pictures that the undo history alone holds.
+  /// Of what the undo history alone holds, most of it pictures.
   double history_mib = 2048;
   /// Of the pictures that a document has, 16 bytes a pixel: what asks for more is not opened.
   double pictures_mib = 8192;

@@ -216,7 +216,7 @@ TEST(LiveSession, tells_its_owner_of_every_request_that_was_served) {
 
 TEST(LiveSession, the_history_limit_outlives_what_is_opened) {
   LiveSession live;
-  live.limit_history({.least_steps = 1, .image_bytes = 0, .most_steps = 3});
+  live.limit_history({.least_steps = 1, .bytes = std::size_t{1} << 30, .most_steps = 3});
   live.run("opening", [](Session& session, const Watch&) {
     session.adopt(plain_session(sketched()));
     return Result<void>();
