@@ -219,6 +219,13 @@ Result<std::string> read_text_file(const fs::path& path, std::uintmax_t most_byt
   return read_all<std::string>(path, most_bytes);
 }
 
+std::optional<FileStamp> stamp_of(const fs::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return FileStamp{static_cast<std::uintmax_t>(info.st_size), info.st_mtim.tv_sec * kSecond + info.st_mtim.tv_nsec};
+}
+
 bool lies_below(const fs::path& folder, const fs::path& path) {
   std::error_code failure;
   const fs::path root = fs::weakly_canonical(fs::absolute(folder), failure);

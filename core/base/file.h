@@ -4,7 +4,9 @@
 #include "core/base/watch.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +22,16 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::uintm
 
 /// Whether a path, all links on it followed, lies below the folder; what is not there yet counts as it would be made.
 bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& path);
+
+/// By which a file is known to be as it was.
+struct FileStamp {
+  std::uintmax_t bytes = 0;
+  /// Of its last change, ns.
+  std::int64_t changed = 0;
+  bool operator==(const FileStamp&) const = default;
+};
+/// None where there is no file.
+std::optional<FileStamp> stamp_of(const std::filesystem::path& path);
 
 /// Replaces the file whole or not at all: written to a fresh name beside it, synced, renamed.  A failure leaves the old
 /// file as it was and no other file behind.  A link stays a link: the file it leads to is replaced.  Permissions of a

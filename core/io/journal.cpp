@@ -5,6 +5,7 @@
 #include "core/io/picture_folder.h"
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <span>
@@ -77,6 +78,21 @@ Result<void> copy_base(const fs::path& base, const fs::path& to) {
 
 } // namespace
 
+std::string print_stamp(const fs::path& project) {
+  const FileStamp stamp = stamp_of(project).value_or(FileStamp{});
+  return std::string(kStampComment) + std::to_string(stamp.bytes) + " " + std::to_string(stamp.changed);
+}
+
+std::optional<FileStamp> parse_stamp(std::string_view line) {
+  if (!line.starts_with(kStampComment)) return std::nullopt;
+  FileStamp stamp;
+  const char* const end = line.data() + line.size();
+  const auto bytes = std::from_chars(line.data() + kStampComment.size(), end, stamp.bytes);
+  if (bytes.ec != std::errc() || bytes.ptr == end) return std::nullopt;
+  if (std::from_chars(bytes.ptr + 1, end, stamp.changed).ec != std::errc()) return std::nullopt;
+  return stamp;
+}
+
 OpenFile::~OpenFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -122,6 +138,7 @@ Result<Journal> Journal::begin_in(const fs::path& folder, const std::string& nam
   if (!data->lock.open()) return journal_write_error(errno, folder / kJournalLock);
   std::string text = std::string(kScriptHeader) + "\n" + std::string(kNameComment) + clean_text(name) + "\n";
   if (!base.empty()) {
+    text += print_stamp(base) + "\n";
     if (auto copied = copy_base(base, folder / kJournalBase); !copied) return copied.error();
     text += print_step(OpenStep{kJournalBase}) + "\n";
   }
@@ -148,7 +165,7 @@ Result<void> Journal::append(const Step& step) {
 
 Result<void> Journal::mark_saved(const std::string& project) {
   const std::lock_guard guard(data_->mutex);
-  data_->waiting.emplace_back(std::string(kSavedComment) + clean_text(project));
+  data_->waiting.emplace_back(std::string(kSavedComment) + clean_text(project) + "\n" + print_stamp(project));
   return data_->write_waiting();
 }
 

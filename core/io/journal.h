@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/file.h"
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/io/limits.h"
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,8 @@ struct AbandonedJournal {
   std::filesystem::path folder;
   std::string name;
   std::chrono::system_clock::time_point last_change;
+  /// The project's file as it was opened or saved last; none where it was neither.
+  std::optional<FileStamp> stamp;
   /// Commands, undos and redos; and those since the last save.
   int steps = 0;
   int unsaved_steps = 0;

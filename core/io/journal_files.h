@@ -2,10 +2,12 @@
 
 // Names and locks of a journal's files: shared by its writer and its readers.
 
+#include "core/base/file.h"
 #include "core/base/result.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +21,11 @@ inline constexpr const char* kJournalBase = "base.ora";
 inline constexpr const char* kJournalImages = "images";
 inline constexpr const char* kJournalLock = "lock";
 /// Comment lines of the script.
-inline constexpr std::string_view kNameComment = "# name: ", kSavedComment = "# saved: ";
+inline constexpr std::string_view kNameComment = "# name: ", kSavedComment = "# saved: ", kStampComment = "# stamp: ";
+
+/// The line that tells how the project's file is, as far as this program knows; without its end.
+std::string print_stamp(const std::filesystem::path& project);
+std::optional<FileStamp> parse_stamp(std::string_view line);
 
 /// An open file, closed with the object.
 class OpenFile {

@@ -35,6 +35,7 @@ std::optional<AbandonedJournal> describe(const fs::path& folder) {
   const auto lines = whole_lines(*text);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i].starts_with(kNameComment)) journal.name = lines[i].substr(kNameComment.size());
+    if (const auto stamp = parse_stamp(lines[i])) journal.stamp = stamp;
     if (lines[i].starts_with(kSavedComment)) {
       journal.unsaved_steps = 0;
       journal.name = lines[i].substr(kSavedComment.size());

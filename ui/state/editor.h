@@ -82,6 +82,8 @@ private:
     std::shared_ptr<SessionJournal> journal;
     /// Of the tab's path; none where another window has it.
     std::optional<FileClaim> claim;
+    /// The file there as it was opened or saved last.
+    std::optional<FileStamp> stamp;
   };
   /// A session whose tab is gone, until its work has stopped.
   struct Closed {
@@ -130,6 +132,7 @@ private:
   void recover_waiting();
   bool is_opening(const std::filesystem::path& project) const;
   void recover_now(const RecoveredWork& work);
+  void tell_unrecovered(std::size_t index, const Error& error);
   /// Closes the tab that has the project open as it was saved, for one with newer work on it.
   /// @returns the tab's hold on the file; none where there is no such tab, or something has been done in it.
   std::optional<FileClaim> take_over(const std::filesystem::path& project);
@@ -138,6 +141,8 @@ private:
   void quit(const action::Quit& asked);
   void advance_leaving();
   bool ask_to_replace(const std::filesystem::path& path, Action again);
+  /// The same of a tab's own file where another program has written it meanwhile.
+  bool ask_to_replace_newer(const Tab& tab);
   /// Says in the middle of the window that a file was not written, and offers to write another.
   void tell_failure(const std::string& title, const Error& error, const std::string& elsewhere, Action again);
 

@@ -104,8 +104,10 @@ void Editor::open(const fs::path& path, bool remember) {
   const bool project = kind_of_file(file) == FileKind::kProject;
   if (project) memories_[tab.id].coming = file;
   const auto claim = std::make_shared<std::optional<FileClaim>>();
+  const auto stamp = std::make_shared<std::optional<FileStamp>>();
   const auto job = [=, journal = memories_[tab.id].journal, folder = setup_.state_folder,
                     limits = io_limits()](Session& session, const Watch& watch) -> Result<void> {
+    *stamp = stamp_of(file);
     auto result = open_file(session, file, limits, watch);
     if (!result) return result.error();
     *opened = std::move(*result);
@@ -128,6 +130,7 @@ void Editor::open(const fs::path& path, bool remember) {
     done.read_only = opened->read_only;
     if (project) done.path = file;
     editor.memories_[id].claim = std::move(*claim);
+    editor.memories_[id].stamp = *stamp;
     if (!remember) return;
     if (!opened->message.empty()) editor.say(opened->message);
     editor.remember_file(file);
@@ -201,6 +204,22 @@ bool Editor::ask_to_replace(const fs::path& path, Action again) {
   return true;
 }
 
+bool Editor::ask_to_replace_newer(const Tab& tab) {
+  const auto there = stamp_of(tab.path);
+  if (!there || there == memories_[tab.id].stamp) return false;
+  const fs::path path = tab.path;
+  state_.front = *index_of(tab.id);
+  Question question;
+  question.title = "Replace " + path.filename().string() + "?";
+  question.text = "The file is another one than was opened or saved here: something has written it meanwhile. "
+                  "What it holds now will be lost.";
+  question.answers = {{"replace", "Replace", {action::SaveAs{path, true}}, false},
+                      {"elsewhere", "Save elsewhere…", {action::SaveAs{}}, true},
+                      {"cancel", "Cancel", {}, false}};
+  state_.question = std::move(question);
+  return true;
+}
+
 void Editor::tell_failure(const std::string& title, const Error& error, const std::string& elsewhere, Action again) {
   // A question that is open already is not to be lost; what failed is in the status line, too.
   if (error.code == cancelled().code || state_.question) return;
@@ -222,7 +241,10 @@ void Editor::tell_unopened(const fs::path& path, const Error& error) {
 }
 
 void Editor::save(Tab& tab) {
-  if (!tab.path.empty() && !tab.read_only) return save_to(tab, tab.path);
+  if (!tab.path.empty() && !tab.read_only) {
+    if (!ask_to_replace_newer(tab)) save_to(tab, tab.path);
+    return;
+  }
   state_.front = *index_of(tab.id);
   request_file(FileRequest::For::kSaveAs, tab.folder / (tab.name + kProjectEnding));
 }
@@ -237,7 +259,7 @@ void Editor::save_as(const action::SaveAs& asked) {
   state_.file_request.reset();
   const fs::path file = with_ending(made_absolute(asked.path), kProjectEnding);
   const bool own = file == tab->path && !tab->read_only;
-  if (!own && !asked.replace && ask_to_replace(file, action::SaveAs{file, true})) return;
+  if (!asked.replace && (own ? ask_to_replace_newer(*tab) : ask_to_replace(file, action::SaveAs{file, true}))) return;
   save_to(*tab, file);
 }
 
@@ -247,11 +269,13 @@ void Editor::save_to(Tab& tab, const fs::path& path) {
   memory.saving = true;
   const bool claimed = path == tab.path && memory.claim;
   const auto claim = std::make_shared<std::optional<FileClaim>>();
+  const auto stamp = std::make_shared<std::optional<FileStamp>>();
   const auto job = [=, journal = memory.journal, folder = setup_.state_folder](Session& session,
                                                                                const Watch& watch) -> Result<void> {
     if (!claimed && !claim_file(folder, path, *claim))
       return Error{"save.open-elsewhere", "it is open in another window: save under another name", path.string()};
     const auto saved = save_file(session, path, watch);
+    *stamp = stamp_of(path);
     if (saved) journal->mark_saved(session, path);
     return saved;
   };
@@ -268,6 +292,7 @@ void Editor::save_to(Tab& tab, const fs::path& path) {
     saved.folder = path.parent_path();
     saved.name = path.stem().string();
     saved.read_only = false;
+    editor.memories_[id].stamp = *stamp;
     if (!claimed) editor.memories_[id].claim = std::move(*claim);
     if (editor.leaving_) editor.leaving_->saved.insert(id);
     editor.say("Saved " + path.filename().string());

@@ -86,14 +86,26 @@ void Editor::recover_now(const RecoveredWork& work) {
       recovered.path = work.project;
       recovered.read_only = !work.project.empty() && !*claim;
       editor.memories_[id].claim = std::move(*claim);
+      editor.memories_[id].stamp = work.stamp;
       return editor.say(*said);
     }
-    // Nothing is lost: it is offered again.
+    // Nothing is lost: it is offered again, behind the others, whose places do not change.
     editor.say(result.error());
     editor.remove_tab(*editor.index_of(id));
-    editor.state_.recovered.insert(editor.state_.recovered.begin(), work);
+    editor.state_.recovered.push_back(work);
+    editor.tell_unrecovered(editor.state_.recovered.size() - 1, result.error());
   };
   run(tab, "Recovering " + work.name, job, then);
+}
+
+void Editor::tell_unrecovered(std::size_t index, const Error& error) {
+  if (error.code == cancelled().code || state_.question) return;
+  Question question;
+  question.title = state_.recovered[index].name + " cannot be recovered";
+  question.text = to_line(error) + ". It is kept for a week, and offered again.";
+  question.answers = {{"keep", "Keep", {}, true},
+                      {"discard", "Throw away", {action::DiscardRecovered{index, true}}, false}};
+  state_.question = std::move(question);
 }
 
 std::optional<FileClaim> Editor::take_over(const fs::path& project) {

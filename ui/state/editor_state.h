@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/file.h"
 #include "core/session/live_session.h"
 #include "ui/state/action.h"
 #include "ui/state/preferences.h"
@@ -68,6 +69,8 @@ struct RecoveredWork {
   std::string when;
   /// Since it was last saved.
   std::size_t steps = 0;
+  /// The project's file as that run knew it.
+  std::optional<FileStamp> stamp = {};
 };
 
 /// All that the window shows and no document holds.

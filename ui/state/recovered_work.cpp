@@ -50,6 +50,7 @@ RecoveredWork describe_lost_work(const AbandonedJournal& journal, std::chrono::s
   if (name.is_absolute() && kind_of_file(name) == FileKind::kProject) work.project = name;
   work.when = describe_time(journal.last_change, now);
   work.steps = static_cast<std::size_t>(journal.unsaved_steps);
+  work.stamp = journal.stamp;
   return work;
 }
 

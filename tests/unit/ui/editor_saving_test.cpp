@@ -73,6 +73,33 @@ TEST_F(EditorTest, another_file_is_replaced_only_when_told_so) {
   EXPECT_FALSE(snapshot()->modified);
 }
 
+TEST_F(EditorTest, a_file_that_others_wrote_meanwhile_is_replaced_only_when_told_so) {
+  begin_work();
+  const fs::path file = folder_ / (std::string("work") + kProjectEnding);
+  does(action::SaveAs{file});
+  does(action::Execute{LayerRename{{}, "mine"}});
+  folder_.write(file.filename().string(), "theirs");
+  for (Action again : {Action(action::Save{}), Action(action::SaveAs{file})}) {
+    does(std::move(again));
+    ASSERT_TRUE(state().question);
+    EXPECT_EQ(folder_.read(file.filename().string()), "theirs");
+    answer("cancel");
+    EXPECT_TRUE(snapshot()->modified);
+  }
+  does(action::CloseTab{0, false, true});
+  answer("cancel");
+  EXPECT_EQ(state().tabs.size(), 1U) << "nor is it closed then";
+  does(action::Save{});
+  answer("elsewhere");
+  ASSERT_TRUE(state().file_request);
+  does(action::Dismiss{});
+  // What is gone is no one's any more.
+  fs::remove(file);
+  does(action::Save{});
+  EXPECT_FALSE(state().question);
+  EXPECT_FALSE(snapshot()->modified);
+}
+
 TEST_F(EditorTest, the_finished_picture_is_exported_by_its_ending) {
   begin_work();
   does(action::Export{folder_ / "out.png", 16});

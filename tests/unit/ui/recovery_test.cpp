@@ -178,6 +178,12 @@ TEST_F(Recovery, a_damaged_journal_stays_where_it_is) {
   EXPECT_FALSE(run.state().said.empty());
   ASSERT_EQ(run.state().recovered.size(), 1u);
   EXPECT_FALSE(is_nothing_left());
+  // It is told, and can be thrown away there.
+  ASSERT_TRUE(run.state().question);
+  ASSERT_EQ(run.state().question->answers.size(), 2U);
+  EXPECT_TRUE(run.state().question->answers[0].actions.empty());
+  run.does(run.state().question->answers[1].actions.front());
+  EXPECT_TRUE(run.state().recovered.empty());
 }
 
 TEST_F(Recovery, a_project_comes_back_under_its_own_name) {
@@ -194,6 +200,27 @@ TEST_F(Recovery, a_project_comes_back_under_its_own_name) {
   EXPECT_FALSE(run.state().file_request);
   EXPECT_FALSE(run.snapshot()->modified);
   EXPECT_FALSE(run.state().question);
+}
+
+TEST_F(Recovery, a_project_that_was_written_meanwhile_is_replaced_only_when_told_so) {
+  const fs::path file = folder_ / "work.ora";
+  crash_after_saving(file);
+  folder_.write("work.ora", "precious");
+  Program run(state_);
+  run.does(action::Recover{0});
+  run.does(action::Save{});
+  ASSERT_TRUE(run.state().question);
+  EXPECT_EQ(folder_.read("work.ora"), "precious");
+  EXPECT_TRUE(run.snapshot()->modified);
+  run.editor.perform_all({run.state().question->answers[0].actions.front(), action::Dismiss{}});
+  run.settle();
+  EXPECT_FALSE(run.state().question);
+  EXPECT_FALSE(run.snapshot()->modified);
+  EXPECT_NE(folder_.read("work.ora"), "precious");
+  run.does(action::Execute{LayerRename{{}, "again"}});
+  run.does(action::Save{});
+  EXPECT_FALSE(run.state().question) << "it is its own file again";
+  EXPECT_FALSE(run.snapshot()->modified);
 }
 
 TEST_F(Recovery, takes_the_place_of_its_project_while_that_is_as_it_was_saved) {
