@@ -151,9 +151,9 @@ void Editor::watch_tab(Tab& tab) {
   const auto snapshot = tab.session->snapshot();
   if (snapshot->problem && snapshot->problem_number != memory.problem_number) say(*snapshot->problem);
   memory.problem_number = snapshot->problem_number;
-  // No work of anybody's has failed: it is said, and goes on.
+  // No work of anybody's has failed: it is told, and goes on.
   if (const auto problem = memory.journal->take_problem())
-    say("Unsaved work cannot be kept against a crash: " + problem->sentence);
+    add_notice("Unsaved work on " + tab.name + " cannot be kept against a crash: " + problem->sentence);
 
   const Document& document = snapshot->document;
   const Layer* layer = document.selected ? document.find(*document.selected) : nullptr;

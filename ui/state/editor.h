@@ -148,6 +148,7 @@ private:
 
   /// Says over the canvases that a file was not opened; work goes on meanwhile.
   void tell_unopened(const std::filesystem::path& path, const Error& error);
+  void add_notice(const std::string& line);
 
   void take_inbox();
   void watch_tab(Tab& tab);

@@ -237,7 +237,11 @@ void Editor::tell_unopened(const fs::path& path, const Error& error) {
   // Some are whole sentences, which here go on after the colon.
   if (named && why.size() > 1 && std::islower(static_cast<unsigned char>(why[1])) != 0)
     why[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(why[0])));
-  state_.notice += (state_.notice.empty() ? "" : "\n") + path.filename().string() + " is not opened: " + why;
+  add_notice(path.filename().string() + " is not opened: " + why);
+}
+
+void Editor::add_notice(const std::string& line) {
+  state_.notice += (state_.notice.empty() ? "" : "\n") + line;
 }
 
 void Editor::save(Tab& tab) {

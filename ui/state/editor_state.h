@@ -87,7 +87,8 @@ struct EditorState {
   bool show_preferences = false;
   bool show_about = false;
   std::optional<Question> question;
-  /// What could not be opened and why, a line a file; over the canvases until it is dismissed or the next file comes.
+  /// What could not be opened or kept and why, line by line; over the canvases until it is dismissed or the next file
+  /// comes.
   std::string notice;
   std::optional<FileRequest> file_request;
   /// The size and colour of a new document are asked for.

@@ -81,12 +81,12 @@ TEST_F(Recovery, a_journal_that_cannot_be_written_is_said_once) {
   Program run(folder_ / "plain");
   run.does(action::Open{picture("sea.png", 60)});
   run.does(action::AddSource{std::string(kTargetName)});
-  EXPECT_NE(run.state().said.find("crash"), std::string::npos) << run.state().said;
+  EXPECT_NE(run.state().notice.find("crash"), std::string::npos) << run.state().notice;
   EXPECT_TRUE(run.editor.take_problems().empty());
   EXPECT_EQ(run.snapshot()->document.layers.size(), 1u);
-  run.does(action::Say{"else"});
+  run.does(action::DismissNotice{});
   run.does(action::Execute{LayerRename{{}, "puffer"}});
-  EXPECT_EQ(run.state().said, "else");
+  EXPECT_TRUE(run.state().notice.empty());
 }
 
 TEST_F(Recovery, a_clean_end_leaves_nothing) {
