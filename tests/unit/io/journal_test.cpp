@@ -207,7 +207,7 @@ TEST_F(JournalTest, replays_up_to_the_line_that_is_damaged_and_keeps_the_rest) {
 
 TEST_F(JournalTest, passes_over_no_line_that_is_neither_a_step_nor_a_comment) {
   Session session = small_session();
-  must_run(session, LayerMove{{}, 7, 0});
+  must_run(session, LayerMove{{}, {7, 0}});
   fs::path left;
   {
     Journal journal = begin();
