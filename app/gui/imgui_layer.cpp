@@ -105,7 +105,7 @@ void ImGuiLayer::begin_frame(const std::vector<RawEvent>& batch) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   set_pointer();
-  compat::let_enter_choose();
+  compat::prepare_keys();
   ImGui::NewFrame();
 }
 

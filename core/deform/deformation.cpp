@@ -146,8 +146,9 @@ Metrics measure(const Deformation& deformation, const ClosedCurve& sketch, const
   Metrics metrics;
   metrics.distortion = measure_distortion(*deformation.mesh, deformation.positions);
   metrics.distortion.flipped_cells += deformation.flipped_control_cells;
-  if (perimeter(deformation.outline) > 0)
-    metrics.sketch_distance = measure_sketch_distance(ClosedCurve(deformation.outline), sketch);
+  // What is shown: between the outline's own points it bends.  The paper's goes round whole cells.
+  const Points& shown = deformation.flipfree ? deformation.boundary : deformation.outline;
+  if (perimeter(shown) > 0) metrics.sketch_distance = measure_sketch_distance(ClosedCurve(shown), sketch);
   if (!truth.empty()) metrics.truth_error = truth_error(deformation.outline, truth, sketch.length());
   metrics.energy = deformation.energies.empty() ? 0 : deformation.energies.back();
   metrics.iterations = deformation.iterations;

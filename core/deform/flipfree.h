@@ -94,7 +94,8 @@ struct FlipfreeSolution {
   FlipfreeStart start = FlipfreeStart::kMatched;
   /// Cost of the match this correspondence descends from (Match::cost).
   double match_cost = 0;
-  /// Energy after each Newton step, in cells (flipfree_newton.h).
+  /// Energy after each Newton step, in cells (flipfree_newton.h).  From stage to stage the sketch weighs more, and the
+  /// energy may rise.
   std::vector<double> energies;
   double energy = 0;
   int iterations = 0;

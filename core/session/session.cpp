@@ -208,6 +208,7 @@ Result<Metrics> Session::metrics(LayerId id, const Watch& watch) {
   Deformation placed = **deformed;
   placed.positions = transformed(placed.positions, to_target);
   placed.outline = transformed(placed.outline, to_target);
+  placed.boundary = transformed(placed.boundary, to_target);
   return measure(placed, ClosedCurve(layer.sketch_in_target()), {});
 }
 

@@ -134,6 +134,24 @@ TEST(GuiWindow, menus_are_moved_in_by_the_keyboard) {
   EXPECT_EQ(editor.close(), 0);
 }
 
+TEST(GuiWindow, a_menu_in_a_menu_is_left_by_the_keyboard) {
+  EditorUnderTest editor({.arguments = {OVERSKETCH_SOURCE_DIR "/assets/puffer.jpg"}, .width = 320, .height = 240});
+  ASSERT_TRUE(editor.start());
+  ASSERT_TRUE(editor.click("menu.file"));
+  const auto recent = editor.widget("menu.file.recent");
+  ASSERT_TRUE(recent);
+  editor.hand().move(*recent);
+  ASSERT_TRUE(editor.rest());
+  // Where the pointer lies on it, it opens again as soon as it is closed.
+  for (int i = 0; i < 6; ++i)
+    ASSERT_TRUE(editor.press("Escape")) << i;
+  editor.hand().move({300, 200});
+  ASSERT_TRUE(editor.press("Escape"));
+  ASSERT_TRUE(editor.press("Escape"));
+  EXPECT_FALSE(editor.widget("menu.file.open"));
+  EXPECT_EQ(editor.close(), 0);
+}
+
 TEST(GuiWindow, resizing_keeps_the_picture_fitted) {
   EditorUnderTest editor({.arguments = {OVERSKETCH_SOURCE_DIR "/assets/puffer.jpg"}});
   ASSERT_TRUE(editor.start());

@@ -52,7 +52,9 @@ void PinTool::handle(const ToolEvent& event, const ToolContext& context, ActionS
   case InputEvent::Kind::kKeyDown:
     if (e.key == Key::kEscape && busy()) return abandon(sink);
     if (e.key == Key::kEscape && context.selected_pin) return sink.emit(action::SelectPin{std::nullopt});
-    if (e.key == Key::kDelete || e.key == Key::kBackspace) remove_selected(context, sink);
+    if (e.key != Key::kDelete && e.key != Key::kBackspace) return;
+    if (half_) return abandon(sink);
+    remove_selected(context, sink);
     return;
   default:
     return;
@@ -65,11 +67,11 @@ void PinTool::press(const ToolEvent& event, const ToolContext& context, ActionSi
   const Layer* layer = selected_layer(context.snapshot.document);
   if (layer == nullptr || layer->outline.empty())
     return sink.emit(action::Say{"Outline the part in the source picture first"});
-  if (!half_) {
-    if (const auto on = hit(*layer, event.side, pointer_, context)) {
-      drag_ = Drag{on->pin, on->side, pointer_, false};
-      return sink.emit(action::SelectPin{on->pin});
-    }
+  // Two pins cannot share a point: whoever presses one means that one.
+  if (const auto on = hit(*layer, event.side, pointer_, context)) {
+    half_.reset();
+    drag_ = Drag{on->pin, on->side, pointer_, false};
+    return sink.emit(action::SelectPin{on->pin});
   }
   const auto end = nearest_end(*layer, event.side, pointer_, context);
   if (!end)

@@ -6,7 +6,8 @@
 namespace oversketch {
 
 /// Pins a point of the outline to a point of the sketch: a click on either, then one on the other.  Either end of a pin
-/// is dragged along its curve; a click selects a pin, Delete removes it, Esc lets go of the half-made one.
+/// is dragged along its curve; a click selects a pin, Delete removes it.  Esc, Delete or another pin lets go of the
+/// half-made one.
 class PinTool : public CanvasTool {
 public:
   void update(std::span<const ToolEvent> events, const ToolContext& context, ActionSink& sink) override;

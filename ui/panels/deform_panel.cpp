@@ -78,7 +78,8 @@ void draw_numbers(const DeformModel& model, const DrawContext& context) {
        "The same of the cell that is squeezed most.");
   draw("deform.numbers.distance", "To sketch", "%.2f px", metrics.sketch_distance.mean,
        "Mean distance between the part's boundary and the sketch, target pixels.");
-  draw("deform.numbers.farthest", "Farthest", "%.1f px", metrics.sketch_distance.max, "The same where it is greatest.");
+  draw("deform.numbers.farthest", "Farthest", "%.1f px", metrics.sketch_distance.max,
+       "Greatest distance between the part's boundary and the sketch, target pixels.");
 }
 
 void draw_alternatives(const DeformModel& model, Pictures& pictures, const DrawContext& context) {
@@ -156,7 +157,11 @@ void draw_deform_panel(const DeformModel& model, DeformPanelState& state, const 
   draw_settings(*model.settings, context);
   if (!model.has_region) return draw_note(context, "Draw the outline in the source first.");
   if (model.energies.size() >= 2)
-    draw_plot(context, "deform.energy", {"The energy after each step of the solver; it falls and settles.", {}},
+    draw_plot(context, "deform.energy",
+              {"The energy after each step of the solver. It falls while the sketch weighs the same, and rises where "
+               "the solver "
+               "goes on to follow it more closely.",
+               {}},
               model.energies,
               {.caption = "energy per step", .color = context.look.plot, .height = 46, .logarithmic = true});
   draw_numbers(model, context);

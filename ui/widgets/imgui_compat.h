@@ -77,9 +77,16 @@ inline void let_keys_move(bool yes) {
   ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
   flags = yes ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
 }
-/// To be called before a frame begins, after the backend's own part: in Dear ImGui 1.86 Enter opens fields alone.
-inline void let_enter_choose() {
+/// Whether a menu is open that no frame has drawn yet.
+inline bool is_menu_coming() {
+  const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  return open.Size > 0 && open.back().Window == nullptr;
+}
+/// To be called before a frame begins, after the backend's own part: in Dear ImGui 1.86 Enter opens fields alone, and
+/// Esc follows the null pointer that a menu has for a window until it is drawn.
+inline void prepare_keys() {
 #if IMGUI_VERSION_NUM < 18700
+  if (is_menu_coming()) let_keys_move(false);
   ImGuiIO& io = ImGui::GetIO();
   const int enter = io.KeyMap[ImGuiKey_Enter];
   const bool down = (io.ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0 && enter >= 0 && io.KeysDown[enter];

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace oversketch {
 namespace {
 
@@ -173,6 +176,26 @@ TEST(Session, a_layer_whose_sketch_is_its_outline_shows_its_picture) {
     run(session, setting([&](LayerSet& s) { s.mode = mode; }));
     EXPECT_LE(compare(picture(session), session.document().target.image)->max_levels, 1) << static_cast<int>(mode);
   }
+}
+
+TEST(Session, the_distance_from_the_sketch_is_that_of_what_is_shown) {
+  // A square of four points that bulges: what is shown follows the bulge, the four points lie far from it.
+  Session session;
+  DocumentNew begin;
+  begin.target = loaded_ref("target.png", wavy_image(300, 300, 0));
+  run(session, begin);
+  run(session, LayerAdd{loaded_ref("source.png", wavy_image(220, 220, 1)), std::nullopt});
+  run(session, RegionSet{{}, {{20, 20}, {200, 20}, {200, 200}, {20, 200}}});
+  Points bulging = {{60, 60}, {240, 60}, {240, 240}, {60, 240}};
+  for (int i = 1; i < 20; ++i) {
+    const double along = i / 20.0;
+    bulging.push_back({60 - 40 * std::sin(std::numbers::pi * along), 240 - 180 * along});
+  }
+  run(session, SketchSet{{}, bulging});
+  const auto metrics = session.metrics({1});
+  ASSERT_TRUE(metrics.ok());
+  EXPECT_LT(metrics->sketch_distance.max, 6);
+  EXPECT_LT(metrics->sketch_distance.mean, 1);
 }
 
 TEST(Session, bicubic_sampling_shows_another_picture_and_can_be_undone) {

@@ -60,7 +60,7 @@ protected:
   void frame(double seconds = 1.0 / 60) {
     now_s_ += seconds;
     ImGui::GetIO().DeltaTime = static_cast<float>(seconds);
-    compat::let_enter_choose();
+    compat::prepare_keys();
     ImGui::NewFrame();
     widgets_.clear();
     reply_ = {};

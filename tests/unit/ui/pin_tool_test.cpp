@@ -79,6 +79,24 @@ TEST(PinTool, escape_lets_go_of_the_half_made_pin) {
   expect_no_change(hand.take());
 }
 
+TEST(PinTool, delete_or_another_pin_lets_go_of_the_half_made_pin) {
+  PinTool tool;
+  Hand hand(tool, with_pin(), Side::kSource);
+  hand.click({80, 120});
+  ASSERT_TRUE(tool.busy());
+  hand.key(Key::kDelete);
+  EXPECT_FALSE(tool.busy());
+  hand.click({80, 120});
+  hand.take();
+  // A second one there would be refused.
+  hand.on(Side::kTarget);
+  hand.click({120, 80});
+  const auto actions = hand.take();
+  expect_no_change(actions);
+  EXPECT_EQ(all_of<action::SelectPin>(actions).back().pin, PinId{1});
+  EXPECT_FALSE(tool.busy());
+}
+
 TEST(PinTool, drags_either_end) {
   for (const Side side : {Side::kSource, Side::kTarget}) {
     PinTool tool;
