@@ -221,6 +221,7 @@ void draw_editor_window(const EditorState& state, WindowState& window, Pictures&
   parts.dialog_open = dialog;
   // Between two menus too: an arrow that is held down would else count as pressed anew in the second.
   compat::let_keys_move(is_popup_open() || parts.flags.menu_wanted);
+  if (compat::is_menu_coming()) context.reply.ask_frame_at(context.now_s);
 }
 
 } // namespace oversketch

@@ -83,9 +83,13 @@ inline bool is_menu_coming() {
   return open.Size > 0 && open.back().Window == nullptr;
 }
 /// To be called before a frame begins, after the backend's own part: in Dear ImGui 1.86 Enter opens fields alone, and
-/// Esc follows the null pointer that a menu has for a window until it is drawn.
+/// Esc follows the null pointer that a menu has for a window until it is drawn.  One that the pointer opened in a menu
+/// that Esc closed never is: it would keep the keyboard from everything else.
 inline void prepare_keys() {
 #if IMGUI_VERSION_NUM < 18700
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  while (is_menu_coming() && context.OpenPopupStack.back().OpenFrameCount + 1 < context.FrameCount)
+    ImGui::ClosePopupToLevel(context.OpenPopupStack.Size - 1, false);
   if (is_menu_coming()) let_keys_move(false);
   ImGuiIO& io = ImGui::GetIO();
   const int enter = io.KeyMap[ImGuiKey_Enter];
