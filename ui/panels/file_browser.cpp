@@ -106,11 +106,15 @@ void FileBrowser::arrange_rows() {
   rows_ = recent ? listing_.rows : arrange(listing_.rows, filter_, sort_, descending_, hidden_);
 }
 
+/// One slash at the end, so that typing goes on with a name.
+std::string FileBrowser::place_text() const {
+  return folder_ == folder_.root_path() ? folder_.string() : folder_.string() + "/";
+}
+
 void FileBrowser::go_to(const fs::path& folder) {
   wanted_name_ = folder == folder_.parent_path() ? folder_.filename().string() : std::string();
   folder_ = folder;
-  // One slash at the end, so that typing goes on with a name.
-  path_text = folder_ == folder_.root_path() ? folder_.string() : folder_.string() + "/";
+  path_text = place_text();
   message.clear();
   replaces_.reset();
   rows_.clear();
@@ -251,6 +255,21 @@ void FileBrowser::accept_path(ActionSink& sink) {
     answer(path, false, sink);
   else
     message = "There is no " + path.string() + ".";
+}
+
+void FileBrowser::confirm(ActionSink& sink) {
+  if (path_is_typed()) return accept_path(sink);
+  if (saves()) return answer_saving(sink);
+  accept(sink);
+}
+
+bool FileBrowser::can_confirm() const {
+  return path_is_typed() || (saves() ? !name.empty() : chosen_row() != nullptr);
+}
+
+void FileBrowser::click(int index) {
+  path_text = place_text();
+  choose(index);
 }
 
 void FileBrowser::replace(ActionSink& sink) {

@@ -52,6 +52,8 @@ public:
   void go_to_recent();
   void go_up();
   void choose(int index);
+  /// With the pointer: instead of a path that is being typed.
+  void click(int index);
   void set_filter(FileFilter filter);
   /// The same column again turns the order round.
   void sort_by(FileSort sort);
@@ -65,6 +67,9 @@ public:
   void accept_name(ActionSink& sink) { answer_saving(sink); }
   /// The path field's Enter.
   void accept_path(ActionSink& sink);
+  /// The button: what is typed into the path field, or else what is chosen or named.
+  void confirm(ActionSink& sink);
+  bool can_confirm() const;
   void replace(ActionSink& sink);
   void keep_file() { replaces_.reset(); }
   void cancel(ActionSink& sink);
@@ -99,6 +104,9 @@ private:
   void arrange_rows();
   void move(int by);
   void jump(char typed, double now_s);
+  /// What the path field says of the folder.
+  std::string place_text() const;
+  bool path_is_typed() const { return path_text != place_text(); }
   void answer(const std::filesystem::path& path, bool replace, ActionSink& sink);
   void answer_saving(ActionSink& sink);
 

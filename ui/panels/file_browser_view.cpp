@@ -215,10 +215,10 @@ void draw_file(FileBrowser& browser, int index, float width, const DrawContext& 
               format_time(row.time), 1);
   ImGui::SetCursorScreenPos(ImVec2(at.x, end.y));
   if (twice) {
-    browser.choose(index);
+    browser.click(index);
     browser.accept(context.sink);
   } else if (clicked && !chosen) {
-    browser.choose(index);
+    browser.click(index);
     browser.reveal = false;
   }
 }
@@ -341,14 +341,9 @@ void draw_answers(FileBrowser& browser, const DrawContext& context) {
     ImGui::PopStyleColor();
   }
   AnswerRow answers(context);
-  const bool ready = browser.saves() ? !browser.name.empty() : browser.chosen_row() != nullptr;
-  if (answers.draw("browser.accept", verb_of(browser.request().purpose), {"Takes what is chosen.", "Enter"}, true,
-                   ready)) {
-    if (browser.saves())
-      browser.accept_name(context.sink);
-    else
-      browser.accept(context.sink);
-  }
+  if (answers.draw("browser.accept", verb_of(browser.request().purpose), {"Takes what is chosen or typed.", "Enter"},
+                   true, browser.can_confirm()))
+    browser.confirm(context.sink);
   if (answers.draw("browser.cancel", "Cancel", {"Back to the pictures.", "Esc"})) browser.cancel(context.sink);
 }
 

@@ -153,6 +153,25 @@ TEST_F(Browser, TypedPathsAreGoneToOrRefused) {
   EXPECT_NE(browser.message.find("nowhere.png"), std::string::npos);
 }
 
+TEST_F(Browser, TheButtonTakesTheTypedPathBeforeWhatIsChosen) {
+  ask(For::kOpen, root());
+  settle();
+  ASSERT_NE(browser.chosen_row(), nullptr);
+  browser.path_text = (root() / "fish.png").string();
+  EXPECT_TRUE(browser.can_confirm());
+  browser.confirm(sink_);
+  EXPECT_EQ(take_all<action::Open>().at(0).path, root() / "fish.png");
+  browser.path_text = (root() / "pictures").string();
+  browser.click(0);
+  const std::string row = browser.chosen_row()->path;
+  browser.confirm(sink_);
+  settle();
+  if (fs::is_directory(row))
+    EXPECT_EQ(browser.folder(), row) << "a click takes the place of what was typed";
+  else
+    EXPECT_EQ(take_all<action::Open>().at(0).path, row);
+}
+
 TEST_F(Browser, ReplacingIsAsked) {
   ask(For::kSaveAs, root() / "project.jsonl");
   browser.accept_name(sink_);
