@@ -11,6 +11,8 @@ namespace {
 
 /// How near the pointer must be to a corner; how far a press may wander and still be a click.  Design px.
 constexpr double kOnFrameCorner = 9, kMoveClick = 3;
+/// Within the frame, no further from it than this part of the shorter side.
+constexpr double kCornerShare = 0.25;
 constexpr double kTurnStep_deg = 15, kScaleStep = 0.05;
 /// Further than any command takes a layer.
 constexpr double kFurthest = 1 << 22;
@@ -203,9 +205,12 @@ MoveTool::Grip MoveTool::grip_at(Point at, const ToolContext& context) const {
   const auto frame = selected != nullptr ? frame_of(*selected) : std::nullopt;
   if (frame) {
     const Point centre = 0.5 * ((*frame)[0] + (*frame)[2]);
+    // The middle of a small part moves it.
+    const double side = std::min(distance((*frame)[0], (*frame)[1]), distance((*frame)[1], (*frame)[2]));
+    const double reach = context.picture_px(kOnFrameCorner, Side::kTarget);
+    const double on_corner = is_in_frame(*frame, at) ? std::min(reach, kCornerShare * side) : reach;
     for (const Point corner : *frame)
-      if (distance(at, corner) <= context.picture_px(kOnFrameCorner, Side::kTarget))
-        return {Drag::kScale, std::nullopt, corner - centre};
+      if (distance(at, corner) <= on_corner) return {Drag::kScale, std::nullopt, corner - centre};
     if (contains(selected->sketch_in_target(), at)) return {Drag::kMove, std::nullopt, {}};
   }
   if (const Layer* other = layer_at(document, at); other != nullptr && other != selected)

@@ -81,6 +81,22 @@ TEST(MoveTool, corners_scale) {
   EXPECT_NEAR(committed<LayerTransform>(hand.take()).scale, 1.5, 1e-9) << "steps of 5 %";
 }
 
+TEST(MoveTool, a_part_smaller_than_its_corners_can_be_moved) {
+  MoveTool tool;
+  Document document = one_layer();
+  document.layers[0].placement = make_placement(Similarity{0.05, {80, 80}});
+  Hand hand(tool, document, Side::kTarget);
+  const LayerFrame frame = *frame_of(document.layers[0]);
+  const Point middle = 0.5 * (frame[0] + frame[2]);
+  ASSERT_LT(distance(frame[0], frame[2]), 9);
+  hand.drag({middle, middle + Point{10, 0}, middle + Point{30, 20}});
+  EXPECT_EQ(committed<LayerMove>(hand.take()).by, (WholeOffset{30, 20}));
+  // From beside it, it is scaled as ever.
+  const Point beside = frame[2] + 0.5 * (frame[2] - frame[0]);
+  hand.drag({beside, beside + Point{10, 10}, beside + Point{20, 20}});
+  EXPECT_GT(committed<LayerTransform>(hand.take()).scale, 1);
+}
+
 TEST(MoveTool, the_frame_turns_and_scales_with_the_layer) {
   const Document before = one_layer();
   const auto frame = frame_of(before.layers.front());
