@@ -15,6 +15,16 @@
 
 namespace oversketch {
 
+int write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+  return 0;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,17 +85,6 @@ Result<Container> read_all(const fs::path& path, std::uintmax_t most) {
   }
   bytes.resize(filled);
   return bytes;
-}
-
-/// 0 or the system's error.
-int write_all(int descriptor, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return errno;
-    bytes = bytes.subspan(static_cast<std::size_t>(put));
-  }
-  return 0;
 }
 
 /// A file beside the one to be replaced; gone with this object unless it took the other's place.

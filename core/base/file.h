@@ -20,6 +20,10 @@ namespace oversketch {
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 2'000'000'000);
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 500'000'000);
 
+/// All of the bytes to an open file.
+/// @returns 0 or the system's error.
+int write_all(int descriptor, std::span<const std::byte> bytes);
+
 /// Whether a path, all links on it followed, lies below the folder; what is not there yet counts as it would be made.
 bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& path);
 

@@ -47,29 +47,18 @@ Result<fs::path> make_folder(const fs::path& state_folder) {
   return journal_write_error(EEXIST, journals);
 }
 
-/// 0 or the system's error.
-int write_whole(int file, std::span<const char> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t put = ::write(file, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return errno;
-    bytes = bytes.subspan(static_cast<std::size_t>(put));
-  }
-  return 0;
-}
-
 Result<void> copy_base(const fs::path& base, const fs::path& to) {
   const OpenFile from(::open(base.c_str(), O_RDONLY | O_CLOEXEC));
   if (!from.open()) return journal_write_error(errno, base);
   const OpenFile copy(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (!copy.open()) return journal_write_error(errno, to);
-  std::vector<char> piece(1 << 20);
+  std::vector<std::byte> piece(1 << 20);
   for (;;) {
     const ssize_t got = ::read(from.number(), piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return journal_write_error(errno, base);
     if (got == 0) break;
-    if (const int error = write_whole(copy.number(), std::span(piece).first(static_cast<std::size_t>(got))))
+    if (const int error = write_all(copy.number(), std::span(piece).first(static_cast<std::size_t>(got))))
       return journal_write_error(error, to);
   }
   if (::fsync(copy.number()) != 0) return journal_write_error(errno, to);
@@ -208,7 +197,7 @@ Result<void> Journal::Data::write_waiting() {
 int Journal::Data::append_whole(std::string_view line) {
   // Half a line may stand there from a try that failed.
   if (::ftruncate(file.number(), static_cast<off_t>(size)) != 0) return errno;
-  if (const int error = write_whole(file.number(), line)) return error;
+  if (const int error = write_all(file.number(), std::as_bytes(std::span(line)))) return error;
   if (::fdatasync(file.number()) != 0) return errno;
   size += line.size();
   return 0;

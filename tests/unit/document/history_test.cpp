@@ -124,24 +124,25 @@ TEST(History, keeps_at_least_fifty_steps_and_drops_images_beyond_its_budget) {
   EXPECT_EQ(light.cursor(), 301u);
 }
 
-TEST(History, drops_curves_beyond_its_budget) {
-  History history(History::Limits{50, 1 << 20, 1000});
-  ASSERT_TRUE(history.execute(new_document(300, 300)).ok());
-  ASSERT_TRUE(history.execute(LayerAdd{{std::string(kTargetName), {}}, "a"}).ok());
-  // Each step holds curves of 32 kB: a megabyte is full after 32.
-  ASSERT_TRUE(history.execute(RegionSet{{}, blob({150, 150}, 90, 0, 1000)}).ok());
+/// A part with curves of 32 kB, moved 300 times.
+History moved_often(std::size_t bytes) {
+  History history(History::Limits{50, bytes, 1000});
+  EXPECT_TRUE(history.execute(new_document(300, 300)).ok());
+  EXPECT_TRUE(history.execute(LayerAdd{{std::string(kTargetName), {}}, "a"}).ok());
+  EXPECT_TRUE(history.execute(RegionSet{{}, blob({150, 150}, 90, 0, 1000)}).ok());
   for (int i = 0; i < 300; ++i)
-    ASSERT_TRUE(history.execute(LayerMove{{}, {1, 0}}).ok());
+    EXPECT_TRUE(history.execute(LayerMove{{}, {1, 0}}).ok());
+  return history;
+}
+
+TEST(History, drops_curves_beyond_its_budget) {
+  // A megabyte is full after 32 steps.
+  History history = moved_often(1 << 20);
   EXPECT_EQ(history.cursor(), 50U);
   ASSERT_TRUE(history.undo(50).ok());
   EXPECT_EQ(history.present().layers[0].placement.dx, 250);
 
-  History roomy(History::Limits{50, 4 << 20, 1000});
-  ASSERT_TRUE(roomy.execute(new_document(300, 300)).ok());
-  ASSERT_TRUE(roomy.execute(LayerAdd{{std::string(kTargetName), {}}, "a"}).ok());
-  ASSERT_TRUE(roomy.execute(RegionSet{{}, blob({150, 150}, 90, 0, 1000)}).ok());
-  for (int i = 0; i < 300; ++i)
-    ASSERT_TRUE(roomy.execute(LayerMove{{}, {1, 0}}).ok());
+  const History roomy = moved_often(4 << 20);
   EXPECT_GT(roomy.cursor(), 90U);
   EXPECT_LT(roomy.cursor(), 140U);
 }
