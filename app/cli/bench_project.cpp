@@ -2,6 +2,8 @@
 
 #include "app/cli/bench_cases.h"
 
+#include "core/image/image_io.h"
+#include "core/io/journal.h"
 #include "core/io/project.h"
 
 #include <algorithm>
@@ -75,6 +77,28 @@ private:
   fs::path path_;
 };
 
+/// A step that brings a picture that was read from a file, until a crash cannot take it any more.
+Result<void> run_journal(const BenchInput& input, BenchRecord& record) {
+  const Scratch scratch;
+  if (scratch.path().empty()) return Error{"file.write", "no temporary folder could be made", ""};
+  const auto file = encode_jpeg(make_photograph(4000, 3000, 1));
+  if (!file) return file.error();
+  for (int run = -1; run < input.runs; ++run) {
+    auto image = decode_file(*file);
+    if (!image) return image.error();
+    DocumentNew begin;
+    begin.target = ImageRef{"target.jpg", std::move(*image)};
+    auto journal = Journal::begin(scratch.path(), "bench");
+    if (!journal) return journal.error();
+    const Stopwatch watch;
+    if (auto written = journal->append(Command(begin)); !written) return written;
+    const Spent spent = watch.spent();
+    if (run >= 0) record.add("project.journal", "12 megapixels, JPEG", spent);
+    journal->discard();
+  }
+  return {};
+}
+
 Result<void> run_project(const BenchInput& input, BenchRecord& record) {
   const Scratch scratch;
   if (scratch.path().empty()) return Error{"file.write", "no temporary folder could be made", ""};
@@ -91,7 +115,7 @@ Result<void> run_project(const BenchInput& input, BenchRecord& record) {
   if (auto done = record.repeat("project.picture", item, input.runs, show); !done) return done;
   std::error_code ignored;
   record.add_value("project.size", item, static_cast<double>(fs::file_size(path, ignored)) / 1e6);
-  return {};
+  return run_journal(input, record);
 }
 
 } // namespace
@@ -103,7 +127,8 @@ std::vector<BenchGroup> project_benches() {
        BenchGoal{1500, BenchStatistic::kClock}},
       {"project.open", "ms", "open it: all pictures and the history", {}},
       {"project.picture", "ms", "its picture alone, the first that is shown", BenchGoal{1000, BenchStatistic::kClock}},
-      {"project.size", "MB", "its file", {}}};
+      {"project.size", "MB", "its file", {}},
+      {"project.journal", "ms", "a step that brings a photograph of 12 megapixels, until it is in the journal", {}}};
   group.uses_cases = false;
   group.run = run_project;
   return {group};

@@ -11,10 +11,6 @@ namespace {
 /// To what share of its budget a history is cut that is beyond it, so that not every step has to look through all.
 constexpr double kTrimmed = 0.75;
 
-std::size_t bytes_of(const Image& image) {
-  return image.pixels().values().size_bytes();
-}
-
 /// Each entry holds a document of its own, curves and all.
 std::size_t own_bytes(const Document& document) {
   std::size_t bytes = sizeof(History::Entry) + document.target.name.size();
@@ -29,13 +25,13 @@ std::size_t own_bytes(const Document& document) {
 std::size_t count_new_bytes(const Document& before, const Document& after) {
   const auto same = [](const Image& a, const Image& b) { return &a.pixels() == &b.pixels(); };
   std::size_t bytes =
-      own_bytes(after) + (same(before.target.image, after.target.image) ? 0 : bytes_of(after.target.image));
+      own_bytes(after) + (same(before.target.image, after.target.image) ? 0 : after.target.image.bytes());
   for (std::size_t i = 0; i < after.layers.size(); ++i) {
     const Image& image = after.layers[i].source.image;
     if (i < before.layers.size() && same(before.layers[i].source.image, image)) continue;
     const bool known = std::any_of(before.layers.begin(), before.layers.end(),
                                    [&](const Layer& layer) { return same(layer.source.image, image); });
-    if (!known && !same(after.target.image, image)) bytes += bytes_of(image);
+    if (!known && !same(after.target.image, image)) bytes += image.bytes();
   }
   return bytes;
 }
@@ -83,7 +79,7 @@ std::size_t History::count_kept() const {
   for (std::size_t i = entries_.size(); i-- > 0;) {
     bytes += own_bytes(entries_[i].document);
     for_each_image(entries_[i].document, [&](const Image& image) {
-      if (counted.insert(&image.pixels()).second) bytes += bytes_of(image);
+      if (counted.insert(&image.pixels()).second) bytes += image.bytes();
     });
     const bool within_least = kept < limits_.least_steps + 1;
     if (!within_least &&

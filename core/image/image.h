@@ -3,7 +3,10 @@
 #include "core/base/hash.h"
 #include "core/image/raster.h"
 
+#include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace oversketch {
 
@@ -34,6 +37,15 @@ public:
   bool empty() const { return pixels_->empty(); }
   const Rgba& at(int x, int y) const { return pixels_->at(x, y); }
   const Raster<Rgba>& pixels() const { return *pixels_; }
+  /// The file that it was read from, byte for byte: decode_image() makes this picture of it again.  Empty where the
+  /// pixels came from elsewhere.
+  std::span<const std::byte> file() const {
+    return file_ ? std::span<const std::byte>(*file_) : std::span<const std::byte>();
+  }
+  /// The same picture, read from that file.
+  Image with_file(std::vector<std::byte> file) const;
+  /// What it holds in memory, its file too.
+  std::size_t bytes() const { return pixels_->values().size_bytes() + file().size(); }
   /// Of size and pixels; computed at the first call, about 6 GB/s.
   Hash content_hash() const;
   /// By content.
@@ -43,6 +55,7 @@ private:
   struct LazyHash;
   std::shared_ptr<const Raster<Rgba>> pixels_;
   std::shared_ptr<LazyHash> hash_;
+  std::shared_ptr<const std::vector<std::byte>> file_;
 };
 
 } // namespace oversketch

@@ -101,6 +101,12 @@ Result<Image> decode_image(std::span<const std::byte> bytes, std::int64_t most_p
   return Error{"image.too-large", "There is not enough memory to open this picture.", ""};
 }
 
+Result<Image> decode_file(std::vector<std::byte> bytes, std::int64_t most_pixels) {
+  auto image = decode_image(bytes, most_pixels);
+  if (!image) return image.error();
+  return image->with_file(std::move(bytes));
+}
+
 Result<Image> load_image(const std::filesystem::path& path, std::int64_t most_pixels) {
   // A pipe or a device may never end.
   std::error_code ignored;
@@ -108,9 +114,9 @@ Result<Image> load_image(const std::filesystem::path& path, std::int64_t most_pi
   if (kind == std::filesystem::file_type::fifo || kind == std::filesystem::file_type::character ||
       kind == std::filesystem::file_type::socket)
     return Error{"image.unreadable", "The picture cannot be opened: it is no regular file.", path.string()};
-  const auto bytes = read_file(path);
+  auto bytes = read_file(path);
   if (!bytes) return opening_error(bytes.error());
-  Result<Image> image = decode_image(*bytes, most_pixels);
+  Result<Image> image = decode_file(std::move(*bytes), most_pixels);
   if (!image) return at(path.string(), image.error());
   return image;
 }

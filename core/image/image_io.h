@@ -33,13 +33,16 @@ inline constexpr std::int64_t kMaxPixels = 200'000'000;
 ///   image.damaged, image.unsupported (a kind of these formats that is not read), image.too-large (above `most_pixels`
 ///   or kMaxPixels, before anything is allocated; or not enough memory); `where` is the path.
 /// @cost about 14 ns a pixel for JPEG, 17 for PNG, of which turning it into floats takes 9, mostly for
-///   fresh memory; 16 bytes a pixel are kept and up to 8 (12 for HDR, 6 more for a progressive JPEG) needed besides
-///   while reading.
+///   fresh memory; 16 bytes a pixel and the file's own bytes (Image::file()) are kept and up to 8 (12 for HDR, 6 more
+///   for a progressive JPEG) needed besides while reading.
 /// @threads safe from several threads.
 Result<Image> load_image(const std::filesystem::path& path, std::int64_t most_pixels = kMaxPixels);
 
 /// The same from memory; `where` of errors is empty.
 Result<Image> decode_image(std::span<const std::byte> bytes, std::int64_t most_pixels = kMaxPixels);
+
+/// The same, and the picture keeps the bytes (Image::file()).
+Result<Image> decode_file(std::vector<std::byte> bytes, std::int64_t most_pixels = kMaxPixels);
 
 enum class BitDepth { k8, k16 };
 

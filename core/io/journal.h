@@ -25,8 +25,9 @@ Result<std::filesystem::path> default_state_folder();
 /// hand.
 ///
 /// STATE/journals/NAME/ holds journal.jsonl, a script like any other; the pictures that its commands name, each content
-/// once, under images/; base.ora, the project that the document was opened from, if it was; and `lock`, held by the
-/// process as long as it lives.  Lines are only ever appended, each synced before append() returns.
+/// once and as the file that it was read from, under images/; base.ora, the project that the document was opened from,
+/// if it was; and `lock`, held by the process as long as it lives.  Lines are only ever appended, each synced before
+/// append() returns.
 ///
 /// When a line cannot be written (a full disk) it waits, and the next append() tries again, in order: a journal never
 /// has a gap.
@@ -48,7 +49,8 @@ public:
 
   /// @param step  a command with its pictures loaded, an undo or a redo (CHECK).
   /// @errors journal.write; those of PictureFolder.
-  /// @cost a few milliseconds, what the disk takes to sync; once for each picture the time to pack it.
+  /// @cost a few milliseconds, what the disk takes to sync; for each new picture its content hash, and its file's bytes
+  ///   (one that was read from no file is packed: 22 ns a pixel).
   Result<void> append(const Step& step);
   /// The steps so far are in a file of their own now.
   Result<void> mark_saved(const std::string& project);

@@ -17,7 +17,7 @@ struct Journal::Data {
   using Line = std::variant<Step, std::string>;
 
   explicit Data(std::filesystem::path in)
-      : folder(std::move(in)), pictures(folder, kJournalImages, PictureFolder::Ending::kOfOriginal) {}
+      : folder(std::move(in)), pictures(folder, kJournalImages, PictureFolder::Form::kAsOpened) {}
 
   /// @param bytes  of whole lines that stand there.
   Result<void> open_for_appending(std::size_t bytes);

@@ -1,7 +1,7 @@
 // Finding journals whose processes are gone, and replaying them.
 
 #include "core/base/file.h"
-#include "core/image/exact.h"
+#include "core/image/image_io.h"
 #include "core/io/journal_data.h"
 #include "core/io/project.h"
 
@@ -98,17 +98,14 @@ private:
     if (!path) return path.error();
     std::error_code failure;
     if (!fs::is_regular_file(*path, failure)) return Error{"image.missing", "there is no such file", path->string()};
-    const auto bytes = read_file(*path, std::min<std::uintmax_t>(limits_.file_bytes, memory_left_));
+    auto bytes = read_file(*path, std::min<std::uintmax_t>(limits_.file_bytes, memory_left_));
     if (!bytes) return bytes.error();
-    const auto size = read_image_size(*bytes);
-    if (!size) return at(path->string(), size.error());
-    const std::size_t memory =
-        static_cast<std::size_t>(size->width) * static_cast<std::size_t>(size->height) * sizeof(Rgba);
-    if (memory > memory_left_)
+    const std::size_t most = (memory_left_ - bytes->size()) / sizeof(Rgba);
+    auto image = decode_file(std::move(*bytes), static_cast<std::int64_t>(std::min<std::size_t>(most, kMaxPixels)));
+    if (!image && image.error().code == "image.too-large")
       return Error{"project.too-large", "its pictures need more memory than the program may take", path->string()};
-    memory_left_ -= memory;
-    auto image = decode_image(*bytes);
     if (!image) return at(path->string(), image.error());
+    memory_left_ -= image->bytes();
     return image;
   }
 

@@ -37,9 +37,9 @@ Rgba over(const Rgba& top, double opacity, const Rgba& below) {
 }
 
 Result<Image> load_part_picture(const Archive& archive, const std::string& part, std::size_t memory_bytes) {
-  const auto bytes = read_part_picture(archive, part, memory_bytes);
+  auto bytes = read_part_picture(archive, part, memory_bytes);
   if (!bytes) return bytes.error();
-  auto image = decode_image(*bytes);
+  auto image = decode_file(std::move(*bytes));
   if (!image) return at(archive.place(part), image.error());
   return image;
 }

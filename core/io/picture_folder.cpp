@@ -41,20 +41,25 @@ Result<std::string> PictureFolder::store(const ImageRef& ref) {
   fs::create_directories(root_ / inside, failure);
   if (failure) return Error{"file.write", "the folder cannot be made: " + failure.message(), (root_ / inside).string()};
   const fs::path original = portable_name(ref.name);
-  const bool keeps_ending = ending_ == Ending::kOfOriginal && original.has_extension();
+  const bool as_opened = form_ == Form::kAsOpened && !ref.image->file().empty();
+  const bool keeps_ending = as_opened || (form_ == Form::kAsOpened && original.has_extension());
   const auto named = [&](std::string_view extension) {
     return inside / (keeps_ending ? original.filename().string() : original.stem().string() + std::string(extension));
   };
   // A name is its content: what is there is the same picture.
   for (const char* extension : {".png", ".osf"})
     if (fs::exists(root_ / named(extension), failure)) return stored_[hash] = named(extension).generic_string();
-  const auto picture = encode_exact(*ref.image);
-  if (!picture) return at(ref.name, picture.error());
-  const fs::path relative = named(picture->extension);
+  ExactPicture packed;
+  if (!as_opened) {
+    auto done = encode_exact(*ref.image);
+    if (!done) return at(ref.name, done.error());
+    packed = std::move(*done);
+  }
+  const fs::path relative = named(packed.extension);
   if (!lies_below(root_, root_ / relative))
     return Error{"file.write", "a link leads out of the session's folder", (root_ / relative).string()};
-  if (auto saved = write_file(root_ / relative, std::span<const std::byte>(picture->bytes)); !saved)
-    return saved.error();
+  const std::span<const std::byte> bytes = as_opened ? ref.image->file() : std::span<const std::byte>(packed.bytes);
+  if (auto saved = write_file(root_ / relative, bytes); !saved) return saved.error();
   return stored_[hash] = relative.generic_string();
 }
 

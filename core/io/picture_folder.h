@@ -10,16 +10,17 @@
 
 namespace oversketch {
 
-/// Pictures beside a script, each content once: ROOT/FOLDER/HASH/NAME.png (or .osf, see exact.h).
+/// Pictures beside a script, each content once: ROOT/FOLDER/HASH/NAME.
 /// @threads one at a time.
 class PictureFolder {
 public:
-  /// How a file is called: by what it holds now, for other programs; or as the person knows it, "sea.jpg", whatever it
-  /// holds, so that a history names what was opened.
-  enum class Ending { kOfContent, kOfOriginal };
+  /// Packed to the bit, .png or .osf (exact.h), which takes a second for 54 megapixels; or the file that the picture
+  /// was read from, byte for byte and under its own name, which takes as long as the disk.  One that was read from no
+  /// file is packed, and has the name that the person knows all the same.
+  enum class Form { kPacked, kAsOpened };
 
-  PictureFolder(std::filesystem::path root, std::filesystem::path folder, Ending ending = Ending::kOfContent)
-      : root_(std::move(root)), folder_(std::move(folder)), ending_(ending) {}
+  PictureFolder(std::filesystem::path root, std::filesystem::path folder, Form form = Form::kPacked)
+      : root_(std::move(root)), folder_(std::move(folder)), form_(form) {}
 
   /// The command with its loaded pictures in the folder, named relative to ROOT; written where they are not there yet.
   /// @errors file.write (a link that leads out of ROOT too), those of encode_exact.
@@ -30,7 +31,7 @@ private:
 
   std::filesystem::path root_;
   std::filesystem::path folder_;
-  Ending ending_;
+  Form form_;
   std::map<Hash, std::string> stored_;
 };
 

@@ -13,7 +13,10 @@ Result<void> PictureLoader::load_into(Command& command) {
       const std::size_t most = std::min<std::size_t>(memory_left_ / sizeof(Rgba), kMaxPixels);
       auto image = load_image(folder_ / ref->name, static_cast<std::int64_t>(most));
       if (!image) return image.error();
-      memory_left_ -= image->pixels().values().size_bytes();
+      if (image->bytes() > memory_left_)
+        return Error{"image.too-large", "The picture and its file need more memory than the program may take.",
+                     (folder_ / ref->name).string()};
+      memory_left_ -= image->bytes();
       known = loaded_.emplace(ref->name, std::move(*image)).first;
     }
     ref->image = known->second;

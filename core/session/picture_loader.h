@@ -11,11 +11,11 @@
 
 namespace oversketch {
 
-/// Reads the pictures that commands name, each file once, and counts the memory that their pixels take.
+/// Reads the pictures that commands name, each file once, and counts the memory that they take.
 class PictureLoader {
 public:
   /// @param folder        that names are relative to.
-  /// @param memory_bytes  for all pictures together, 16 bytes a pixel.
+  /// @param memory_bytes  for all pictures together: 16 bytes a pixel, and their files' own.
   explicit PictureLoader(std::filesystem::path folder,
                          std::size_t memory_bytes = std::numeric_limits<std::size_t>::max())
       : folder_(std::move(folder)), memory_left_(memory_bytes) {}

@@ -2,6 +2,8 @@
 
 // An evening's work in small: what the process that is killed does, and what whoever looks afterwards knows it did.
 
+#include "core/base/check.h"
+#include "core/image/image_io.h"
 #include "core/session/session.h"
 
 #include "tests/support/documents.h"
@@ -17,7 +19,7 @@ class Work {
 public:
   explicit Work(unsigned seed) : random_(seed) {
     DocumentNew begin;
-    begin.target = loaded_ref("target.png", wavy_image(90, 80, 1));
+    begin.target = ImageRef{"target.jpg", read_from_file(wavy_image(90, 80, 1))};
     (void)session_.execute(begin).ok();
   }
 
@@ -41,6 +43,15 @@ private:
     const Command command = random_.next();
     if (session_.preview(command) && session_.composite()) session_.commit_preview();
     session_.drop_preview();
+  }
+
+  /// As it comes out of a JPEG.
+  static Image read_from_file(const Image& picture) {
+    auto jpeg = encode_jpeg(picture);
+    CHECK(jpeg, "a picture");
+    auto image = decode_file(std::move(*jpeg));
+    CHECK(image, "what was written");
+    return std::move(*image);
   }
 
   RandomCommands random_;

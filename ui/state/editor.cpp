@@ -101,7 +101,7 @@ void Editor::remove_tab(std::size_t index) {
 }
 
 void Editor::run(Tab& tab, std::string label, LiveSession::Job job, Then then) {
-  ++running_;
+  ++memories_[tab.id].running;
   const auto deliver = [inbox = inbox_, wake = setup_.wake, id = tab.id,
                         then = std::move(then)](const Result<void>& result) {
     {
@@ -123,8 +123,9 @@ void Editor::take_inbox() {
   }
   if (found) take_lost_work(std::move(*found));
   for (const Inbox::Entry& entry : entries) {
-    --running_;
-    if (find_tab(entry.tab) != nullptr && entry.then) entry.then(*this, entry.result);
+    if (find_tab(entry.tab) == nullptr) continue;
+    --memories_[entry.tab].running;
+    if (entry.then) entry.then(*this, entry.result);
   }
 }
 
@@ -172,7 +173,9 @@ void Editor::watch_tab(Tab& tab) {
 
 bool Editor::busy() const {
   const auto works = [](const auto& session) { return session->activity().busy; };
-  return running_ > 0 || searching_ || !waiting_.empty() || std::ranges::any_of(state_.tabs, works, &Tab::session) ||
+  const auto runs = [](const auto& memory) { return memory.second.running > 0; };
+  return std::ranges::any_of(memories_, runs) || searching_ || !waiting_.empty() ||
+         std::ranges::any_of(state_.tabs, works, &Tab::session) ||
          std::ranges::any_of(closed_, works, &Closed::session);
 }
 

@@ -77,6 +77,8 @@ private:
     Hash source;
     Hash target;
     bool saving = false;
+    /// Work on its session whose outcome has not been taken yet.
+    int running = 0;
     /// The project that is being opened in it; empty once it is there.
     std::filesystem::path coming;
     std::shared_ptr<SessionJournal> journal;
@@ -106,6 +108,7 @@ private:
   Tab& add_tab(std::string name);
   /// The tab in front while nothing has begun in it, else a new one.
   Tab& empty_tab();
+  bool is_untouched(const Tab& tab) const;
   Tab* find_tab(int id);
   std::optional<std::size_t> index_of(int id) const;
   void remove_tab(std::size_t index);
@@ -167,7 +170,6 @@ private:
   CanvasRects last_canvases_;
   double now_s_ = 0;
   int next_tab_ = 1;
-  int running_ = 0;
   bool quit_ = false;
   std::vector<Error> problems_;
   std::vector<Closed> closed_;

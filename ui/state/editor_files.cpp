@@ -22,11 +22,6 @@ fs::path with_ending(fs::path path, const char* ending) {
 }
 
 /// A tab in which nothing has begun.
-bool is_untouched(const Tab& tab) {
-  const auto snapshot = tab.session->snapshot();
-  return snapshot->document.empty() && !tab.session->activity().busy && tab.path.empty();
-}
-
 /// Whether nobody else has the project open; without a place for claims, nobody is known to.
 bool claim_file(const fs::path& state_folder, const fs::path& project, std::optional<FileClaim>& claim) {
   if (state_folder.empty()) return true;
@@ -42,6 +37,11 @@ bool is_on_disk(const fs::path& path) {
 }
 
 } // namespace
+
+bool Editor::is_untouched(const Tab& tab) const {
+  return memories_.at(tab.id).running == 0 && !tab.session->activity().busy &&
+         tab.session->snapshot()->document.empty() && tab.path.empty();
+}
 
 Tab& Editor::empty_tab() {
   return state_.tab() != nullptr && is_untouched(*state_.tab()) ? *state_.tab() : add_tab("");

@@ -25,8 +25,7 @@ std::string ending_of(const fs::path& path) {
 /// What the document's pictures take, each content once.
 std::size_t picture_bytes(const Document& document) {
   std::map<Hash, std::size_t> bytes;
-  for_each_image(document,
-                 [&](const Image& image) { bytes[image.content_hash()] = image.pixels().values().size_bytes(); });
+  for_each_image(document, [&](const Image& image) { bytes[image.content_hash()] = image.bytes(); });
   std::size_t sum = 0;
   for (const auto& [hash, size] : bytes)
     sum += size;

@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <map>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -102,6 +103,40 @@ TEST_F(JournalTest, brings_back_what_was_done) {
     recovered.journal.discard();
     EXPECT_FALSE(fs::exists(left));
   }
+}
+
+TEST_F(JournalTest, keeps_a_picture_as_the_file_it_was_read_from) {
+  const fs::path file = folder / "sea.jpg";
+  ASSERT_TRUE(save_image(wavy_image(70, 50, 1), file).ok());
+  const std::string bytes = folder.read("sea.jpg");
+  Session session;
+  ASSERT_TRUE(session.execute(DocumentNew{ImageRef{file.string(), *load_image(file)}, {}, {}, {}}).ok());
+  // Made here, so that it has no file; and the same pixels as the target's from a file of another kind.
+  ASSERT_TRUE(session.execute(LayerAdd{loaded_ref("made.jpg", wavy_image(40, 30, 2)), {}}).ok());
+  auto packed = encode_png(session.document().target.image);
+  ASSERT_TRUE(packed.ok());
+  ASSERT_TRUE(session.execute(LayerAdd{loaded_ref("again", *decode_file(std::move(*packed))), {}}).ok());
+  // What becomes of the file afterwards is nobody's concern.
+  folder.write("sea.jpg", "something else");
+  fs::path left;
+  {
+    Journal journal = begin();
+    append_from(journal, session, 0);
+    left = journal.folder();
+  }
+  std::map<std::string, std::string> kept;
+  for (const auto& entry : fs::recursive_directory_iterator(left / "images"))
+    if (entry.is_regular_file())
+      kept[entry.path().filename().string()] = folder.read(fs::relative(entry.path(), folder.path()).string());
+  EXPECT_EQ(kept.size(), 2U) << "each content once";
+  EXPECT_EQ(kept["sea.jpg"], bytes);
+  EXPECT_EQ(kept["made.jpg"].substr(0, 8), "OSFLOAT1") << "packed: no PNG holds it";
+  RecoveredJournal recovered = recover(left);
+  EXPECT_EQ(recovered.message, "");
+  expect_same(recovered.session, session);
+  // It goes on with its own files.
+  const Image& target = recovered.session.document().target.image;
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(target.file().data()), target.file().size()), bytes);
 }
 
 TEST_F(JournalTest, is_a_script_that_others_can_run) {
@@ -250,7 +285,7 @@ TEST_F(JournalTest, reads_nothing_outside_its_folder) {
     set_text(left, header + line + "\n");
     EXPECT_EQ(recover_journal(left).error().code, "journal.step") << line;
   }
-  set_text(left, header + "{\"do\": \"document.new\", \"target\": \"lock\"}\n");
+  set_text(left, header + "{\"do\": \"document.new\", \"target\": \"journal.jsonl\"}\n");
   EXPECT_EQ(recover_journal(left).error().code, "image.unknown-format") << "not even its own, when it is no picture";
   fs::remove(left / "journal.jsonl");
   fs::create_symlink(folder / "secret.png", left / "journal.jsonl");

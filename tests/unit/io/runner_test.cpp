@@ -83,13 +83,20 @@ TEST_F(Runner, opens_no_more_than_the_memory_it_is_given) {
     const auto done = run_script_file(fresh, folder / "work.jsonl", folder / "out", {}, limits);
     return done.ok() ? "accepted" : done.error().code;
   };
-  const auto bytes_of = [&](const char* name) { return load_image(folder / name)->pixels().values().size_bytes(); };
-  const std::size_t both = bytes_of("target.png") + bytes_of("source.png");
+  const std::size_t both = load_image(folder / "target.png")->bytes() + load_image(folder / "source.png")->bytes();
   EXPECT_EQ(refusal_with(both, body()), "accepted");
   EXPECT_EQ(refusal_with(both - 1, body()), "image.too-large");
-  EXPECT_EQ(refusal_with(both, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "accepted");
-  EXPECT_EQ(refusal_with(both - 1, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "image.too-large");
-  EXPECT_EQ(refusal_with(both - 1, "{\"do\": \"open\", \"path\": \"a.ora\"}"), "project.too-large");
+  std::size_t saved = 0, pixels = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "out/a.files"))
+    if (entry.is_regular_file()) {
+      const auto picture = load_image(entry.path());
+      saved += picture->bytes();
+      pixels += picture->pixels().values().size_bytes();
+    }
+  EXPECT_EQ(refusal_with(saved, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "accepted");
+  EXPECT_EQ(refusal_with(saved - 1, "{\"do\": \"open\", \"path\": \"a.jsonl\"}"), "image.too-large");
+  EXPECT_EQ(refusal_with(pixels, "{\"do\": \"open\", \"path\": \"a.ora\"}"), "accepted");
+  EXPECT_EQ(refusal_with(pixels - 1, "{\"do\": \"open\", \"path\": \"a.ora\"}"), "project.too-large");
   const std::string canvas = "{\"do\": \"document.new\", \"width\": 100, \"height\": 10}\n";
   EXPECT_EQ(refusal_with(16'000, canvas), "accepted");
   EXPECT_EQ(refusal_with(15'999, canvas), "image.too-large");

@@ -37,6 +37,17 @@ TEST_F(EditorTest, what_cannot_be_opened_is_said_and_leaves_no_tab) {
   EXPECT_TRUE(state().notice.empty());
 }
 
+TEST_F(EditorTest, a_tab_whose_file_failed_to_open_takes_no_other_before_that_is_told) {
+  folder_.write("text.png", "no picture");
+  editor_.perform_all({action::Open{folder_ / "text.png"}});
+  state().tab()->session->wait_until_idle();
+  editor_.perform_all({action::Open{folder_ / "missing.png"}});
+  settle();
+  EXPECT_NE(state().notice.find("text.png is not opened"), std::string::npos) << state().notice;
+  EXPECT_NE(state().notice.find("missing.png is not opened"), std::string::npos) << state().notice;
+  EXPECT_TRUE(state().tabs.empty());
+}
+
 TEST_F(EditorTest, actions_without_a_document_do_nothing) {
   for (const Action& action : std::vector<Action>{
            action::Undo{}, action::Redo{}, action::Commit{}, action::Abandon{}, action::Jump{3}, action::CancelWork{},
