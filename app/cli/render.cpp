@@ -42,7 +42,7 @@ Result<Session> replay(const std::string& path, const IoLimits& limits, const Wa
 }
 
 Result<Json> render(const RenderArguments& options, const IoLimits& limits, const Watch& watch) {
-  const bool is_project = std::filesystem::path(options.source).extension() == ".ora";
+  const bool is_project = ending_of(options.source) == ".ora";
   auto session = is_project ? open_project(options.source, limits, watch) : replay(options.source, limits, watch);
   if (!session) return session.error();
   session->limit_memory(limits.memory_bytes);

@@ -3,6 +3,7 @@
 #include "core/base/temporary_name.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdint>
 #include <ctime>
@@ -14,6 +15,13 @@
 #include <unistd.h>
 
 namespace oversketch {
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
 
 int write_all(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {

@@ -20,6 +20,9 @@ namespace oversketch {
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 2'000'000'000);
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes = 500'000'000);
 
+/// ".png" of "a/Sea.PNG": what tells kinds of files apart, in lower case; empty where there is none.
+std::string ending_of(const std::filesystem::path& path);
+
 /// All of the bytes to an open file.
 /// @returns 0 or the system's error.
 int write_all(int descriptor, std::span<const std::byte> bytes);

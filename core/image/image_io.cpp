@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <new>
 #include <string_view>
 
@@ -77,13 +76,6 @@ Error opening_error(const Error& error) {
   return named;
 }
 
-std::string lowered_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 } // namespace
 
 Result<void> check_exportable(const Image& image) {
@@ -122,11 +114,11 @@ Result<Image> load_image(const std::filesystem::path& path, std::int64_t most_pi
 }
 
 bool keeps_alpha(const std::filesystem::path& path) {
-  return lowered_extension(path) == ".png";
+  return ending_of(path) == ".png";
 }
 
 Result<void> save_image(const Image& image, const std::filesystem::path& path, BitDepth depth) {
-  const std::string extension = lowered_extension(path);
+  const std::string extension = ending_of(path);
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!png && !jpeg)
     return Error{"image.unknown-extension",

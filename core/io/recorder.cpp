@@ -16,7 +16,7 @@ Error no_session(const char* why) {
 } // namespace
 
 Result<void> save_session(const Session& session, const fs::path& path) {
-  if (path.extension() != ".jsonl")
+  if (ending_of(path) != ".jsonl")
     return Error{"save.needs-jsonl", "a session is saved as a script: end the name in .jsonl", path.string()};
   if (session.log().empty() || !std::holds_alternative<Command>(session.log().front()) ||
       !std::holds_alternative<DocumentNew>(std::get<Command>(session.log().front())))

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <climits>
 #include <sstream>
 
 namespace oversketch {
@@ -47,8 +48,8 @@ private:
   Result<void> run_step(const SaveStep& step) {
     const auto path = output_path(step.path);
     if (!path) return path.error();
-    const bool as_script = path->extension() == ".jsonl";
-    if (!as_script && path->extension() != ".ora")
+    const bool as_script = ending_of(*path) == ".jsonl";
+    if (!as_script && ending_of(*path) != ".ora")
       return Error{"save.unknown-kind", "end the name in .ora for a project, in .jsonl for a script", path->string()};
     StageTimer timer(watch_.times, "save");
     auto saved = as_script ? save_session(session_, *path) : save_project(session_, *path, {}, watch_);
@@ -62,7 +63,7 @@ private:
     fs::path path = folders_.out / step.path;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) path = folders_.script / step.path;
-    if (path.extension() != ".ora") return open_session(session_, path, watch_, folders_.limits);
+    if (ending_of(path) != ".ora") return open_session(session_, path, watch_, folders_.limits);
     auto loaded = load_project(path, {folders_.limits}, watch_);
     if (!loaded) return loaded.error();
     session_.adopt(std::move(loaded->session));
@@ -164,8 +165,10 @@ private:
     if (name.empty() || !relative.has_filename()) return path_error(name, "names no file");
     if (name.find('\0') != std::string::npos) return path_error(name, "is no path");
     if (relative.is_absolute()) return path_error(name, "is absolute");
-    for (const fs::path& part : relative)
+    for (const fs::path& part : relative) {
       if (part == "..") return path_error(name, "has \"..\"");
+      if (part.native().size() > NAME_MAX) return path_error(name, "has a name that is too long for a file");
+    }
     std::error_code failure;
     const fs::path folder = (folders_.out / relative).parent_path();
     // What is there already may be a link: neither the folder, nor the file may lead outside.

@@ -1,5 +1,6 @@
 #include "ui/panels/file_kinds.h"
 
+#include "core/base/file.h"
 #include "core/image/image_io.h"
 #include "core/image/resample.h"
 #include "core/io/project.h"
@@ -7,7 +8,6 @@
 #include "ui/state/file_jobs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <system_error>
 
@@ -49,9 +49,7 @@ fs::path with_saved_ending(const fs::path& path, For purpose, ExportFormat forma
 }
 
 ExportFormat format_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  const std::string ending = ending_of(path);
   return ending == ".jpg" || ending == ".jpeg" ? ExportFormat::kJpeg : ExportFormat::kPng;
 }
 

@@ -1,5 +1,7 @@
 #include "ui/panels/file_listing.h"
 
+#include "core/base/file.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -23,7 +25,7 @@ std::string lower(std::string_view text) {
 
 template <std::size_t n>
 bool has_ending(const fs::path& path, const std::array<std::string_view, n>& endings) {
-  return std::ranges::find(endings, lower(path.extension().string())) != endings.end();
+  return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
 FileRow read_row(const fs::directory_entry& entry) {

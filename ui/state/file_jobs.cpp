@@ -8,19 +8,12 @@
 #include "core/session/picture_loader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace oversketch {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 /// What the document's pictures take, each content once.
 std::size_t picture_bytes(const Document& document) {

@@ -2,6 +2,7 @@
 
 #include "core/image/compare.h"
 #include "core/image/image_io.h"
+#include "core/io/ora_file.h"
 #include "core/io/recorder.h"
 #include "core/session/live_session.h"
 
@@ -59,6 +60,13 @@ protected:
   Session session;
 };
 
+TEST_F(Runner, knows_a_project_by_its_ending_in_any_case) {
+  EXPECT_EQ(refusal(body() + "{\"do\": \"save\", \"path\": \"A.ORA\"}\n{\"do\": \"open\", \"path\": \"A.ORA\"}"),
+            "accepted");
+  EXPECT_EQ(session.document().layers.size(), 1U);
+  EXPECT_TRUE(OraFile::open(folder / "out/A.ORA").ok());
+}
+
 TEST_F(Runner, refuses_what_it_cannot_do) {
   EXPECT_EQ(run_script_file(session, folder / "none.jsonl", folder / "out", {}).error().code, "file.missing");
   EXPECT_EQ(refusal("{\"do\": \"export\", \"path\": \"a.png\"}"), "document.none");
@@ -108,6 +116,9 @@ TEST_F(Runner, writes_nothing_outside_its_folder) {
     const std::string line = "{\"do\": \"export\", \"path\": \"" + std::string(path) + "\"}";
     EXPECT_EQ(refusal(body() + line), "script.path") << path;
   }
+  const auto too_long = run(body() + "{\"do\": \"export\", \"path\": \"" + std::string(300, 'a') + ".png\"}");
+  ASSERT_FALSE(too_long.ok());
+  EXPECT_NE(too_long.error().sentence.find("too long"), std::string::npos) << too_long.error().sentence;
   EXPECT_FALSE(fs::exists(folder / "stray.png"));
   fs::create_directory_symlink(folder.path(), folder / "out/link");
   EXPECT_EQ(refusal(body() + "{\"do\": \"report\", \"path\": \"link/stray.json\"}"), "script.path");
