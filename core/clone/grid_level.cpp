@@ -98,9 +98,13 @@ bool GridLevel::is_cut(int number) const {
   return std::binary_search(cuts.begin(), cuts.end(), number);
 }
 
+std::int64_t GridRowIndex::bytes() const {
+  return allocated(pieces) + allocated(first_piece) + allocated(first_irregular[0]) + allocated(first_irregular[1]);
+}
+
 std::int64_t GridLevel::bytes() const {
   return allocated(row_ys) + allocated(row_runs) + allocated(runs) + allocated(cuts) + allocated(irregular[0]) +
-         allocated(irregular[1]);
+         allocated(irregular[1]) + index.bytes();
 }
 
 void expand_row(const GridLevel& level, int row, std::vector<GridPiece>& out) {
@@ -123,6 +127,39 @@ void expand_row(const GridLevel& level, int row, std::vector<GridPiece>& out) {
       x = piece.x1;
     }
   }
+}
+
+std::int64_t index_rows(GridLevel& level, std::int64_t most_bytes) {
+  const int rows = level.rows();
+  const std::int64_t of_rows = 3 * (rows + 1) * static_cast<std::int64_t>(sizeof(int));
+  const auto room = [&](std::size_t pieces) {
+    return of_rows + static_cast<std::int64_t>(pieces * sizeof(GridPiece)) <= most_bytes;
+  };
+  GridRowIndex index;
+  const auto begin_row = [](std::vector<int>& first, std::size_t at) { first.push_back(static_cast<int>(at)); };
+  std::array<std::size_t, 2> irregular{};
+  std::vector<GridPiece> pieces;
+  for (int row = 0; row < rows; ++row) {
+    expand_row(level, row, pieces);
+    if (!room(index.pieces.size() + pieces.size())) return 0;
+    begin_row(index.first_piece, index.pieces.size());
+    index.pieces.insert(index.pieces.end(), pieces.begin(), pieces.end());
+    for (std::size_t colour = 0; colour < 2; ++colour) {
+      const std::vector<GridLevel::Irregular>& list = level.irregular[colour];
+      std::size_t& at = irregular[colour];
+      while (at < list.size() && list[at].slot < level.first_in(row))
+        ++at;
+      begin_row(index.first_irregular[colour], at);
+    }
+  }
+  begin_row(index.first_piece, index.pieces.size());
+  for (std::size_t colour = 0; colour < 2; ++colour)
+    begin_row(index.first_irregular[colour], level.irregular[colour].size());
+  for (std::vector<int>* first : {&index.first_piece, &index.first_irregular[0], &index.first_irregular[1]})
+    first->shrink_to_fit();
+  index.pieces.shrink_to_fit();
+  level.index = std::move(index);
+  return level.index.bytes();
 }
 
 GridLevel make_finest_level(const Mask& mask, double screening) {

@@ -10,6 +10,44 @@
 
 namespace oversketch {
 
+/// A stretch of a run whose nodes are all connected upwards, or none; the same downwards.
+struct GridPiece {
+  /// The nodes of one colour: `count` slots from `at`.
+  struct Cells {
+    int at = 0;
+    int count = 0;
+    /// Slots of the first one's left and upper and lower neighbour; the right one's is west + 1.  −1: none above, none
+    /// below, for all of them.
+    int west = 0;
+    int north = -1;
+    int south = -1;
+    /// The first one has no left neighbour; the last one no right neighbour.
+    bool opens = false;
+    bool closes = false;
+    bool operator==(const Cells&) const = default;
+  };
+
+  int x0 = 0;
+  int x1 = 0;
+  int run = 0;
+  /// Numbers of the nodes above and below x0, or −1.
+  int above = -1;
+  int below = -1;
+  std::array<Cells, 2> cells;
+  bool operator==(const GridPiece&) const = default;
+};
+
+/// What every pass over a grid asks of its rows, found once; row r's are [first[r], first[r + 1]).
+struct GridRowIndex {
+  std::vector<GridPiece> pieces;
+  std::vector<int> first_piece;
+  /// Of GridLevel::irregular, by colour.
+  std::array<std::vector<int>, 2> first_irregular;
+
+  bool empty() const { return first_piece.empty(); }
+  std::int64_t bytes() const;
+};
+
 /// One grid of MaskMultigrid: nodes in runs, row by row.  Neighbours in a run are connected; a node and the one below
 /// it are, unless the pair is cut.  Memory follows the number of nodes and runs.
 ///
@@ -44,6 +82,8 @@ struct GridLevel {
   /// Node (X, Y) of the next coarser level is node (2 X + coarse_x, 2 Y + coarse_y) of this one.
   int coarse_x = 0;
   int coarse_y = 0;
+  /// Empty where it would take too much memory.
+  GridRowIndex index;
 
   int count() const { return runs.back().first; }
   int rows() const { return static_cast<int>(row_runs.size()) - 1; }
@@ -73,33 +113,12 @@ struct GridLevel {
   std::int64_t bytes() const;
 };
 
-/// A stretch of a run whose nodes are all connected upwards, or none; the same downwards.
-struct GridPiece {
-  /// The nodes of one colour: `count` slots from `at`.
-  struct Cells {
-    int at = 0;
-    int count = 0;
-    /// Slots of the first one's left and upper and lower neighbour; the right one's is west + 1.  −1: none above, none
-    /// below, for all of them.
-    int west = 0;
-    int north = -1;
-    int south = -1;
-    /// The first one has no left neighbour; the last one no right neighbour.
-    bool opens = false;
-    bool closes = false;
-  };
-
-  int x0 = 0;
-  int x1 = 0;
-  int run = 0;
-  /// Numbers of the nodes above and below x0, or −1.
-  int above = -1;
-  int below = -1;
-  std::array<Cells, 2> cells;
-};
-
 /// The pieces of a row, from left to right; replaces what `out` holds.
 void expand_row(const GridLevel& level, int row, std::vector<GridPiece>& out);
+
+/// Makes the level's index, if it takes at most that many bytes.
+/// @returns how many it takes.
+std::int64_t index_rows(GridLevel& level, std::int64_t most_bytes);
 
 /// Pixels of a mask, each pair of neighbours connected; diagonal 4 + screening.
 GridLevel make_finest_level(const Mask& mask, double screening);

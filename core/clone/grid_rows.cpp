@@ -57,6 +57,13 @@ void join(const float* slots, int count, float factor, float* line) {
   if (i + 1 < count) store(line + kC, factor * load(odd));
 }
 
+/// Row `row`'s of what an index lists.
+template <class T>
+std::span<const T> of_row(const std::vector<T>& list, const std::vector<int>& first, int row) {
+  const auto r = static_cast<std::size_t>(row), begin = static_cast<std::size_t>(first[r]);
+  return std::span(list).subspan(begin, static_cast<std::size_t>(first[r + 1]) - begin);
+}
+
 } // namespace
 
 std::size_t GridRows::longest_cells(const GridLevel& level) {
@@ -77,7 +84,8 @@ void GridRows::fetch(int row, std::size_t part, std::size_t parts) const {
   }
 }
 
-const std::vector<GridPiece>& GridRows::pieces(int row) {
+std::span<const GridPiece> GridRows::pieces(int row) {
+  if (!level_.index.empty()) return of_row(level_.index.pieces, level_.index.first_piece, row);
   const auto at = static_cast<std::size_t>(row) % pieces_.size();
   if (pieces_row_[at] != row) {
     expand_row(level_, row, pieces_[at]);
@@ -110,7 +118,13 @@ void GridRows::for_cells(const float* u, int row, int colour, Work work) {
 /// Calls work(slot, scale) for the irregular nodes of a row.
 template <class Work>
 void GridRows::for_irregular(int row, int colour, Work work) const {
-  const std::vector<GridLevel::Irregular>& list = level_.irregular[static_cast<std::size_t>(colour)];
+  const auto c = static_cast<std::size_t>(colour);
+  const std::vector<GridLevel::Irregular>& list = level_.irregular[c];
+  if (!level_.index.empty()) {
+    for (const GridLevel::Irregular& node : of_row(list, level_.index.first_irregular[c], row))
+      work(at_slot(node.slot), node.scale);
+    return;
+  }
   const int end = level_.last_in(row);
   auto node = std::lower_bound(list.begin(), list.end(), level_.first_in(row),
                                [](const GridLevel::Irregular& a, int slot) { return a.slot < slot; });

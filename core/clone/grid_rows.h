@@ -56,7 +56,7 @@ private:
     std::vector<float> values;
   };
 
-  const std::vector<GridPiece>& pieces(int row);
+  std::span<const GridPiece> pieces(int row);
   /// The residual of the coarse nodes' colour, kGridChannels floats a slot of the row.
   const float* residual(int row);
   void fill_residual(int row, float* r);
@@ -76,7 +76,7 @@ private:
   GridKernels kernels_;
   const float* zeros_;
   float inverse_;
-  /// Rows that a pass has looked at last, by number modulo 16.
+  /// Without an index: rows that a pass has looked at last, by number modulo 16.
   std::array<std::vector<GridPiece>, 16> pieces_;
   std::array<int, 16> pieces_row_ = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   std::array<Residual, 4> residuals_;

@@ -35,6 +35,24 @@ constexpr double kMargin = 1.5;
 /// Above, what a region may take, values included; fewer pixels than an int counts.
 constexpr std::int64_t kMostBytes = 8'000'000'000, kBytesPerPixel = 40;
 
+/// Of a pixel, that the rows' index may take.
+constexpr std::int64_t kIndexBytes = 3;
+
+/// Of the unknown and the right-hand side.
+constexpr std::int64_t kValueBytes = 2 * kGridChannels * sizeof(float);
+
+/// The coarsest first: their rows are short, and looking for them is most of the work there.
+void index_levels(std::vector<GridLevel>& levels) {
+  const std::int64_t pixels = levels.front().count();
+  std::int64_t taken = 0;
+  for (const GridLevel& level : levels)
+    taken += level.bytes() + kValueBytes * level.count();
+  // Of masks with pixel-sized holes a few bytes less than kBytesPerPixel are left.
+  std::int64_t room = std::min(kIndexBytes * pixels, (kBytesPerPixel - 4) * pixels - taken);
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    room -= index_rows(*level, room);
+}
+
 } // namespace
 
 struct MaskMultigrid::Data {
@@ -68,6 +86,7 @@ Result<MaskMultigrid> MaskMultigrid::make(const Mask& mask, double screening, co
     if (is_small || coarser.level.count() == 0) break;
     made = std::move(coarser);
   }
+  index_levels(data->levels);
   data->zeros.assign(GridRows::longest_cells(data->levels.front()), 0.0f);
   if (data->levels.back().count() <= kMostFactored) data->coarsest.emplace(data->levels.back());
   return MaskMultigrid(data);
