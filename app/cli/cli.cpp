@@ -101,8 +101,8 @@ CLI::App* Cli::add(const std::string& name, const std::string& description, cons
 void Cli::add_memory_option(CLI::App* subcommand) {
   subcommand
       ->add_option("--memory", memory_mb_,
-                   "MB that the pictures it opens may take, 16 bytes a pixel, and each layer of a document, 56; what "
-                   "asks for more is refused")
+                   "MB that the pictures it opens may take, 16 bytes a pixel and their files, and each layer of a "
+                   "document, 56 bytes a pixel; what asks for more is refused")
       ->type_name("MB")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30))
       ->capture_default_str();

@@ -18,7 +18,8 @@ struct IoLimits {
   /// Of oversketch/document.json, unpacked, and of values in values.
   std::size_t json_bytes = 256 << 20;
   int json_depth = 16;
-  /// Memory for all pictures that are open at once, 16 bytes a pixel, and for a part while it is unpacked.
+  /// Memory for all pictures that are open at once, 16 bytes a pixel and the files they were read from, and for a part
+  /// while it is unpacked.
   std::size_t memory_bytes = std::size_t{8} << 30;
 };
 

@@ -23,7 +23,7 @@ struct Preferences {
   double tolerance_px = 10;
   /// Of what the undo history alone holds, most of it pictures.
   double history_mib = 2048;
-  /// Of the pictures that a document has, 16 bytes a pixel: what asks for more is not opened.
+  /// Of the pictures that a document has, 16 bytes a pixel and their files: what asks for more is not opened.
   double pictures_mib = 8192;
   /// The desktop's own file dialog instead of this program's, where there is one.
   bool system_dialog = false;
