@@ -108,6 +108,8 @@ private:
   Tab& add_tab(std::string name);
   /// The tab in front while nothing has begun in it, else a new one.
   Tab& empty_tab();
+  /// "Untitled", "Untitled 2"…: the first that no tab has.
+  std::string unused_name(const std::string& stem) const;
   bool is_untouched(const Tab& tab) const;
   Tab* find_tab(int id);
   std::optional<std::size_t> index_of(int id) const;

@@ -64,13 +64,20 @@ IoLimits Editor::io_limits() const {
   return limits;
 }
 
+std::string Editor::unused_name(const std::string& stem) const {
+  std::string name = stem;
+  for (int n = 2; std::ranges::find(state_.tabs, name, &Tab::name) != state_.tabs.end(); ++n)
+    name = stem + " " + std::to_string(n);
+  return name;
+}
+
 void Editor::new_document(const action::NewDocument& asked) {
   if (!asked.what) {
     state_.asks_new_document = true;
     return;
   }
   state_.asks_new_document = false;
-  Tab& tab = add_tab("Untitled");
+  Tab& tab = add_tab(unused_name("Untitled"));
   const auto job = [what = *asked.what, limits = io_limits()](Session& session, const Watch& watch) {
     return make_document(session, what, limits, watch);
   };

@@ -1,6 +1,9 @@
 // Closing and quitting: nothing is lost without having been asked for.
 #include "ui/state/editor.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace oversketch {
 namespace {
 
@@ -17,6 +20,16 @@ Question ask_to_save(std::string title, Action save, Action discard) {
                       {"discard", "Do not save", {std::move(discard)}, false},
                       {"cancel", "Cancel", {}, false}};
   return question;
+}
+
+/// A few of them, a line each.
+std::string list_names(const std::vector<const Tab*>& tabs) {
+  constexpr std::size_t kMost = 6;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMost, tabs.size()); ++i)
+    names += "\n" + tabs[i]->name;
+  if (tabs.size() > kMost) names += "\nand " + std::to_string(tabs.size() - kMost) + " more";
+  return names;
 }
 
 } // namespace
@@ -52,6 +65,7 @@ void Editor::quit(const action::Quit& asked) {
         modified.size() == 1 ? modified.front()->name : std::to_string(modified.size()) + " documents";
     state_.question = ask_to_save("Save changes to " + what + " before leaving?", action::Quit{false, true},
                                   action::Quit{true, false});
+    if (modified.size() > 1) state_.question->text += "\n" + list_names(modified);
   }
 }
 

@@ -51,6 +51,9 @@ bool several_tabs(C c) {
 void next_tab(C c) {
   c.sink.emit(action::SelectTab{(c.state.front + 1) % c.state.tabs.size()});
 }
+void previous_tab(C c) {
+  c.sink.emit(action::SelectTab{(c.state.front + c.state.tabs.size() - 1) % c.state.tabs.size()});
+}
 
 void toggle_shortcuts(C c) {
   c.sink.emit(action::ShowWindow{action::Window::kShortcuts, !c.state.show_shortcuts});
@@ -96,6 +99,9 @@ std::span<const EntryRow> view_entries() {
           .keys({Key::kTab, {.ctrl = true}})
           .when(several_tabs)
           .below_line(),
+      view("view.previous_tab", "Previous document", previous_tab, "The tab to the left.")
+          .keys({Key::kTab, {.shift = true, .ctrl = true}})
+          .when(several_tabs),
 
       help("help.shortcuts", "Shortcuts", toggle_shortcuts, "All keys, to be searched.").keys(plain(Key::kF1)),
       help("help.about", "About Oversketch", show_about, "Version and licences."),

@@ -159,6 +159,8 @@ TEST_F(EditorTest, quitting_asks_and_saves_every_document) {
   does(action::AddSource{folder_ / "fish.png"});
   does(action::Quit{});
   ASSERT_TRUE(state().question);
+  EXPECT_NE(state().question->title.find("2 documents"), std::string::npos) << state().question->title;
+  EXPECT_NE(state().question->text.find("\nsea\nsecond"), std::string::npos) << state().question->text;
   answer("save");
   for (const char* name : {"a", "b"}) {
     ASSERT_TRUE(state().file_request) << name;

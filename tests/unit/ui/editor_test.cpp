@@ -58,6 +58,17 @@ TEST_F(EditorTest, actions_without_a_document_do_nothing) {
   EXPECT_FALSE(state().question);
 }
 
+TEST_F(EditorTest, new_documents_have_names_of_their_own) {
+  for (int i = 0; i < 3; ++i)
+    does(action::NewDocument{testing::new_document(30, 20)});
+  does(action::CloseTab{1, true, false});
+  does(action::NewDocument{testing::new_document(30, 20)});
+  std::vector<std::string> names;
+  for (const Tab& tab : state().tabs)
+    names.push_back(tab.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Untitled", "Untitled 3", "Untitled 2"}));
+}
+
 TEST_F(EditorTest, a_picture_becomes_a_document_of_its_own) {
   const fs::path file = picture("sea.png");
   does(action::Open{file});

@@ -45,6 +45,22 @@ protected:
   EntryContext context{state, &snapshot, flags, sink};
 };
 
+TEST_F(Shortcuts, ControlTabGoesRoundTheDocuments) {
+  const auto goes = [&](std::size_t front, bool back) {
+    state.front = front;
+    const auto actions = read({key(Key::kTab, {.shift = back, .ctrl = true})});
+    return actions.empty() ? -1 : static_cast<int>(std::get<action::SelectTab>(actions[0]).tab);
+  };
+  state.tabs.resize(1);
+  EXPECT_EQ(goes(0, false), -1);
+  EXPECT_EQ(goes(0, true), -1);
+  state.tabs.resize(3);
+  EXPECT_EQ(goes(0, false), 1);
+  EXPECT_EQ(goes(2, false), 0);
+  EXPECT_EQ(goes(2, true), 1);
+  EXPECT_EQ(goes(0, true), 2);
+}
+
 TEST_F(Shortcuts, NoTwoEntriesShareKeysOrNames) {
   std::map<std::string, std::string_view> keys;
   std::set<std::string_view> ids;
@@ -210,7 +226,9 @@ TEST_F(Shortcuts, EveryOverlayToolAndComparisonHasItsRow) {
 TEST_F(Shortcuts, EntriesReachTheirActions) {
   std::set<std::size_t> reached;
   for (const Entry& entry : entries()) {
-    if (!is_enabled(entry, context) || entry.id == "view.next_tab" || entry.id == "layer.remove_pin") continue;
+    if (!is_enabled(entry, context) || entry.id == "view.next_tab" || entry.id == "view.previous_tab" ||
+        entry.id == "layer.remove_pin")
+      continue;
     entry.act(context);
     for (const Action& action : sink.take())
       reached.insert(action.index());
