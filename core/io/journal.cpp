@@ -152,6 +152,11 @@ Result<void> Journal::append(const Step& step) {
   return data_->write_waiting();
 }
 
+Result<void> Journal::catch_up() {
+  const std::lock_guard guard(data_->mutex);
+  return data_->write_waiting();
+}
+
 Result<void> Journal::mark_saved(const std::string& project) {
   const std::lock_guard guard(data_->mutex);
   data_->waiting.emplace_back(std::string(kSavedComment) + clean_text(project) + "\n" + print_stamp(project));

@@ -29,8 +29,8 @@ Result<std::filesystem::path> default_state_folder();
 /// if it was; and `lock`, held by the process as long as it lives.  Lines are only ever appended, each synced before
 /// append() returns.
 ///
-/// When a line cannot be written (a full disk) it waits, and the next append() tries again, in order: a journal never
-/// has a gap.
+/// When a line cannot be written (a full disk) it waits, and the next append() or catch_up() tries again, in order: a
+/// journal never has a gap.
 /// @threads safe from several threads: meant to be called from another than the user interface's, in the order of the
 ///   steps.
 class Journal {
@@ -52,6 +52,8 @@ public:
   /// @cost a few milliseconds, what the disk takes to sync; for each new picture its content hash, and its file's bytes
   ///   (one that was read from no file is packed: 22 ns a pixel).
   Result<void> append(const Step& step);
+  /// Writes what could not be written before.
+  Result<void> catch_up();
   /// The steps so far are in a file of their own now.
   Result<void> mark_saved(const std::string& project);
   /// After a clean exit: everything is removed.
@@ -86,8 +88,8 @@ struct RecoveredJournal {
   /// Goes on where it ended; discard() it when the person does not want it.
   Journal journal;
   int steps = 0;
-  /// For the person, when not every line could be replayed: which, and why.  The last line alone, cut short, is not
-  /// worth a word.
+  /// For the person, when not every line could be replayed: which, and why; or when a picture is not the one that it
+  /// was.  The last line alone, cut short, is not worth a word.
   std::string message;
 };
 

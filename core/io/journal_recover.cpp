@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostJournalBytes = 200'000'000;
+constexpr std::uintmax_t kMostJournalBytes = 1'000'000'000;
 
 /// The whole lines of a journal: the last one may be cut short.
 std::vector<std::string_view> whole_lines(std::string_view text) {
@@ -79,6 +79,9 @@ public:
     return folder_ / relative;
   }
 
+  /// Pictures whose files have become those of other pictures.
+  const std::vector<std::string>& changed() const { return changed_; }
+
   Result<void> load_into(Command& command) {
     for (ImageRef* ref : images_to_load(command)) {
       auto known = loaded_.find(ref->name);
@@ -104,8 +107,14 @@ private:
     auto image = decode_file(std::move(*bytes), static_cast<std::int64_t>(std::min<std::size_t>(most, kMaxPixels)));
     if (!image && image.error().code == "image.too-large")
       return Error{"project.too-large", "its pictures need more memory than the program may take", path->string()};
-    if (!image) return at(path->string(), image.error());
+    if (!image)
+      return Error{image.error().code, "the picture " + path->filename().string() + " in the journal is damaged",
+                   path->string()};
     memory_left_ -= image->bytes();
+    // The folder of a picture is called by its content.
+    const fs::path folder = fs::path(name).parent_path();
+    if (folder.parent_path() == kJournalImages && folder.filename() != to_string(image->content_hash()))
+      changed_.push_back(path->filename().string());
     return image;
   }
 
@@ -113,6 +122,7 @@ private:
   const IoLimits& limits_;
   std::size_t memory_left_;
   std::map<std::string, Image> loaded_;
+  std::vector<std::string> changed_;
 };
 
 /// Runs a journal's lines one by one.
@@ -132,6 +142,8 @@ public:
     steps += done ? 1 : 0;
     return done;
   }
+
+  const std::vector<std::string>& changed_pictures() const { return files_.changed(); }
 
   Session session;
   int steps = 0;
@@ -226,14 +238,18 @@ Result<RecoveredJournal> recover_journal(const fs::path& folder, const IoLimits&
       if (done.error().code == "cancelled") return done.error();
       if (replay.session.document().empty()) return at(path.string() + ":" + std::to_string(i + 1), done.error());
       message = "line " + std::to_string(i + 1) + " of " + std::to_string(lines.size()) +
-                " could not be replayed: " + done.error().sentence;
+                " could not be replayed: " + done.error().sentence + "; the lines from there on are kept in " +
+                path.string() + "~";
       break;
     }
     kept += lines[i].size() + 1;
   }
+  const bool is_cut = !message.empty();
+  for (const std::string& name : replay.changed_pictures())
+    message += (message.empty() ? "" : "; ") + name + " is another picture than it was: its file has been changed";
   if (kept != text->size()) {
     WriteOptions options;
-    options.keep_previous = !message.empty();
+    options.keep_previous = is_cut;
     const std::string_view good = std::string_view(*text).substr(0, kept);
     if (auto cut = write_file(path, std::as_bytes(std::span(good.data(), good.size())), options); !cut)
       return cut.error();

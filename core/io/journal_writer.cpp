@@ -4,9 +4,11 @@
 
 namespace oversketch {
 
-JournalWriter::JournalWriter(Journal journal, std::function<void(const Error&)> on_problem)
+JournalWriter::JournalWriter(Journal journal, std::function<void(const std::optional<Error>&)> on_news,
+                             std::chrono::milliseconds pause)
     : journal_(std::move(journal)),
-      on_problem_(std::move(on_problem)),
+      on_news_(std::move(on_news)),
+      pause_(pause),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 JournalWriter::~JournalWriter() = default;
@@ -42,31 +44,46 @@ void JournalWriter::discard() {
 }
 
 void JournalWriter::work(const std::stop_token& stop) {
+  const auto is_asked = [this] { return !waiting_.empty(); };
   std::unique_lock lock(mutex_);
   for (;;) {
+    if (problem_)
+      changed_.wait_for(lock, stop, pause_, is_asked);
+    else
+      changed_.wait(lock, stop, is_asked);
     // Asked to stop, it still writes what waits.
-    changed_.wait(lock, stop, [&] { return !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    const Line line = std::move(waiting_.front());
-    waiting_.pop_front();
+    std::optional<Line> line;
+    if (is_asked()) {
+      line = std::move(waiting_.front());
+      waiting_.pop_front();
+    } else if (stop.stop_requested()) {
+      return;
+    }
     writing_ = true;
     lock.unlock();
-    Result<void> done;
-    try {
-      done = std::holds_alternative<Step>(line) ? journal_.append(std::get<Step>(line))
-                                                : journal_.mark_saved(std::get<std::string>(line));
-    } catch (const std::exception& problem) {
-      done = Error{"memory", problem.what(), ""};
-    }
+    const Result<void> done = write(line);
     lock.lock();
-    if (!done && !problem_ && on_problem_) {
+    const bool is_news = done.ok() == problem_.has_value();
+    problem_ = done.ok() ? std::nullopt : std::optional(done.error());
+    if (is_news && on_news_) {
+      const std::optional<Error> news = problem_;
       lock.unlock();
-      on_problem_(done.error());
+      on_news_(news);
       lock.lock();
     }
-    problem_ = done.ok() ? std::nullopt : std::optional(done.error());
     writing_ = false;
     changed_.notify_all();
+  }
+}
+
+/// None: what could not be written before.
+Result<void> JournalWriter::write(const std::optional<Line>& line) {
+  try {
+    if (!line) return journal_.catch_up();
+    if (const auto* step = std::get_if<Step>(&*line)) return journal_.append(*step);
+    return journal_.mark_saved(std::get<std::string>(*line));
+  } catch (const std::exception& problem) {
+    return Error{"memory", problem.what(), ""};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/io/journal.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -16,8 +17,10 @@ namespace oversketch {
 /// @threads calls may be made from any thread, in the order of the steps.
 class JournalWriter {
 public:
-  /// @param on_problem  called from that thread when a line could not be written, once until one could; must be quick.
-  explicit JournalWriter(Journal journal, std::function<void(const Error&)> on_problem = {});
+  /// @param on_news  called from that thread with problem() when one has come or gone; must be quick.
+  /// @param pause    after which what could not be written is tried again.
+  explicit JournalWriter(Journal journal, std::function<void(const std::optional<Error>&)> on_news = {},
+                         std::chrono::milliseconds pause = std::chrono::seconds(3));
   /// Writes what waits first.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
@@ -28,7 +31,7 @@ public:
   void mark_saved(std::string project);
   /// Waits until everything that was appended is synced, or could not be.
   void flush();
-  /// Why the last line could not be written; none while all is well.  It is tried again with the next one.
+  /// Why not all is written; none while all is well.  It is tried again with the next line, and after a pause.
   std::optional<Error> problem() const;
   /// After a clean exit: nothing waits any more, everything is removed.
   void discard();
@@ -38,9 +41,11 @@ private:
 
   void post(Line line);
   void work(const std::stop_token& stop);
+  Result<void> write(const std::optional<Line>& line);
 
   Journal journal_;
-  std::function<void(const Error&)> on_problem_;
+  std::function<void(const std::optional<Error>&)> on_news_;
+  std::chrono::milliseconds pause_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Line> waiting_;

@@ -2,13 +2,41 @@
 
 #include "core/base/file.h"
 #include "core/image/exact.h"
+#include "core/image/image_io.h"
 
 #include <nlohmann/json.hpp>
+
+#include <utility>
 
 namespace oversketch {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// As long as it can be with what is put beside it while it is written.
+constexpr std::size_t kLongestName = 200;
+
+/// A file's name that any file system takes, its ending kept.
+fs::path fitting(const fs::path& name) {
+  std::string ending = name.extension().string(), stem = name.stem().string();
+  if (ending.size() > kLongestName / 2) stem += std::exchange(ending, "");
+  if (stem.size() + ending.size() <= kLongestName) return name;
+  std::size_t keep = kLongestName - ending.size();
+  // Not within a character of several bytes.
+  while (keep > 0 && (static_cast<unsigned char>(stem[keep]) & 0xC0) == 0x80)
+    --keep;
+  return stem.substr(0, keep) + ending;
+}
+
+/// Whether that picture can be read from the file; damage would go unseen otherwise.
+bool holds(const fs::path& path, const Image& image) {
+  std::error_code failure;
+  if (!fs::is_regular_file(path, failure)) return false;
+  const auto bytes = read_file(path);
+  if (!bytes) return false;
+  const auto there = decode_image(*bytes);
+  return there.ok() && *there == image;
+}
 
 } // namespace
 
@@ -40,15 +68,14 @@ Result<std::string> PictureFolder::store(const ImageRef& ref) {
     return Error{"file.write", "a link leads out of the session's folder", (root_ / inside).string()};
   fs::create_directories(root_ / inside, failure);
   if (failure) return Error{"file.write", "the folder cannot be made: " + failure.message(), (root_ / inside).string()};
-  const fs::path original = portable_name(ref.name);
+  const fs::path original = fitting(portable_name(ref.name));
   const bool as_opened = form_ == Form::kAsOpened && !ref.image->file().empty();
   const bool keeps_ending = as_opened || (form_ == Form::kAsOpened && original.has_extension());
   const auto named = [&](std::string_view extension) {
     return inside / (keeps_ending ? original.filename().string() : original.stem().string() + std::string(extension));
   };
-  // A name is its content: what is there is the same picture.
   for (const char* extension : {".png", ".osf"})
-    if (fs::exists(root_ / named(extension), failure)) return stored_[hash] = named(extension).generic_string();
+    if (holds(root_ / named(extension), *ref.image)) return stored_[hash] = named(extension).generic_string();
   ExactPicture packed;
   if (!as_opened) {
     auto done = encode_exact(*ref.image);

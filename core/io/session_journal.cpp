@@ -15,8 +15,8 @@ bool reaches_beginning(const std::vector<Step>& log) {
 
 } // namespace
 
-SessionJournal::SessionJournal(std::filesystem::path state_folder, std::string name, std::function<void()> on_problem)
-    : state_folder_(std::move(state_folder)), on_problem_(std::move(on_problem)), name_(std::move(name)) {}
+SessionJournal::SessionJournal(std::filesystem::path state_folder, std::string name, std::function<void()> on_news)
+    : state_folder_(std::move(state_folder)), on_news_(std::move(on_news)), name_(std::move(name)) {}
 
 SessionJournal::~SessionJournal() = default;
 
@@ -28,7 +28,7 @@ void SessionJournal::begin(const Session& session, const std::string& name, cons
   base_ = base;
   if (base.empty()) return;
   steps_ = session.log().size();
-  start();
+  start(session);
 }
 
 void SessionJournal::resume(const Session& session, Journal journal) {
@@ -49,8 +49,10 @@ void SessionJournal::follow(const Session& session) {
     // Nothing is lost with a document that is as it was opened.
     if (!session.history().modified()) return;
     if (base_.empty() && !reaches_beginning(log))
-      return tell({"journal.no-beginning", "the history of this document does not reach back to its beginning", name_});
-    start();
+      return publish(
+          Error{"journal.no-beginning", "the history of this document does not reach back to its beginning", name_});
+    // Each step tries again where it could not be begun.
+    start(session);
     if (writer_ == nullptr) return;
   }
   for (const Step& step : std::span(log).subspan(std::min(steps_, log.size())))
@@ -61,10 +63,12 @@ void SessionJournal::follow(const Session& session) {
 void SessionJournal::mark_saved(const Session& session, const std::filesystem::path& project) {
   follow(session);
   const std::lock_guard lock(mutex_);
+  if (ended_ || state_folder_.empty()) return;
   name_ = project.string();
   if (writer_ != nullptr) return writer_->mark_saved(name_);
   base_ = project;
   steps_ = session.log().size();
+  start(session);
 }
 
 void SessionJournal::discard() {
@@ -79,32 +83,36 @@ void SessionJournal::flush() {
   if (writer_ != nullptr) writer_->flush();
 }
 
-std::optional<Error> SessionJournal::take_problem() {
+std::optional<Error> SessionJournal::problem() const {
   const std::lock_guard lock(problem_mutex_);
-  return std::exchange(problem_, std::nullopt);
+  return problem_;
 }
 
-void SessionJournal::start() {
+void SessionJournal::start(const Session& session) {
   auto journal = Journal::begin(state_folder_, name_, base_);
-  if (!journal) return tell(journal.error());
+  // The project may be gone by now: then everything is written down from the beginning.
+  if (!journal && !base_.empty() && reaches_beginning(session.log())) {
+    base_.clear();
+    steps_ = 0;
+    journal = Journal::begin(state_folder_, name_);
+  }
+  if (!journal) return publish(journal.error());
+  publish(std::nullopt);
   adopt(std::move(*journal));
 }
 
 void SessionJournal::adopt(Journal journal) {
-  // Told once for each time that it begins to fail, by the writer itself.
-  writer_ = std::make_unique<JournalWriter>(std::move(journal), [this](const Error& error) { publish(error); });
+  writer_ = std::make_unique<JournalWriter>(std::move(journal),
+                                            [this](const std::optional<Error>& problem) { publish(problem); });
 }
 
-void SessionJournal::tell(Error error) {
-  if (!std::exchange(told_, true)) publish(std::move(error));
-}
-
-void SessionJournal::publish(Error error) {
+void SessionJournal::publish(std::optional<Error> problem) {
   {
     const std::lock_guard lock(problem_mutex_);
-    problem_ = std::move(error);
+    if (problem == problem_) return;
+    problem_ = std::move(problem);
   }
-  if (on_problem_) on_problem_();
+  if (on_news_) on_news_();
 }
 
 /// What was followed so far is nobody's any more.
@@ -114,7 +122,7 @@ void SessionJournal::forget(const Session& session) {
   base_.clear();
   log_number_ = session.log_number();
   steps_ = 0;
-  told_ = false;
+  publish(std::nullopt);
 }
 
 } // namespace oversketch

@@ -19,8 +19,8 @@ class SessionJournal {
 public:
   /// @param state_folder  see default_state_folder(); empty: nothing is ever written.
   /// @param name          see Journal::begin(); begin() may give another.
-  /// @param on_problem    called from any thread when take_problem() has something; must be quick.
-  SessionJournal(std::filesystem::path state_folder, std::string name, std::function<void()> on_problem = {});
+  /// @param on_news       called from any thread when problem() has come or gone; must be quick.
+  SessionJournal(std::filesystem::path state_folder, std::string name, std::function<void()> on_news = {});
   ~SessionJournal();
   SessionJournal(const SessionJournal&) = delete;
   SessionJournal& operator=(const SessionJournal&) = delete;
@@ -33,26 +33,25 @@ public:
   void resume(const Session& session, Journal journal);
   /// Writes down what was done since the last call.  @cost nothing is waited for, the beginning of a journal apart.
   void follow(const Session& session);
-  /// All of it is in that file now.
+  /// All of it is in that file now, which is copied where there is no journal yet: what becomes of the file later is
+  /// nobody's concern.
   void mark_saved(const Session& session, const std::filesystem::path& project);
 
   /// After a clean end: everything is removed, and nothing written any more.  Waits for a line that is being written.
   void discard();
   /// Waits until everything is synced, or could not be.
   void flush();
-  /// Each problem once; another one only after the writing went well in between.
-  std::optional<Error> take_problem();
+  /// Why not all that was done is kept; none while it is.
+  std::optional<Error> problem() const;
 
 private:
-  void start();
+  void start(const Session& session);
   void adopt(Journal journal);
-  /// Of a journal that cannot be begun: once.
-  void tell(Error error);
-  void publish(Error error);
+  void publish(std::optional<Error> problem);
   void forget(const Session& session);
 
   std::filesystem::path state_folder_;
-  std::function<void()> on_problem_;
+  std::function<void()> on_news_;
 
   /// Guards what follows it.
   std::mutex mutex_;
@@ -62,11 +61,9 @@ private:
   std::uint64_t log_number_ = 0;
   std::size_t steps_ = 0;
   bool ended_ = false;
-  /// That it cannot be begun; each step tries again.
-  bool told_ = false;
   std::unique_ptr<JournalWriter> writer_;
 
-  std::mutex problem_mutex_;
+  mutable std::mutex problem_mutex_;
   std::optional<Error> problem_;
 };
 

@@ -136,6 +136,7 @@ void Editor::update(const CanvasRects& canvases, double now_s) {
   take_inbox();
   for (Tab& tab : state_.tabs)
     watch_tab(tab);
+  write_notice();
   recover_waiting();
   advance_leaving();
   if (Tab* tab = state_.tab()) {
@@ -145,6 +146,24 @@ void Editor::update(const CanvasRects& canvases, double now_s) {
   }
 }
 
+void Editor::write_notice() {
+  std::string& notice = state_.notice;
+  notice.clear();
+  const auto add = [&](const std::string& line) { notice += (notice.empty() ? "" : "\n") + line; };
+  for (const std::string& line : told_)
+    add(line);
+  for (const Tab& tab : state_.tabs)
+    if (const Memory& memory = memories_[tab.id]; memory.tells_unkept)
+      add("Unsaved work on " + tab.name + " cannot be kept against a crash: " + memory.unkept->sentence);
+}
+
+void Editor::dismiss_notice() {
+  told_.clear();
+  for (auto& [id, memory] : memories_)
+    memory.tells_unkept = false;
+  write_notice();
+}
+
 void Editor::watch_tab(Tab& tab) {
   Memory& memory = memories_[tab.id];
   // Asked first: what was in hand then may not be in the snapshot.
@@ -152,9 +171,11 @@ void Editor::watch_tab(Tab& tab) {
   const auto snapshot = tab.session->snapshot();
   if (snapshot->problem && snapshot->problem_number != memory.problem_number) say(*snapshot->problem);
   memory.problem_number = snapshot->problem_number;
-  // No work of anybody's has failed: it is told, and goes on.
-  if (const auto problem = memory.journal->take_problem())
-    add_notice("Unsaved work on " + tab.name + " cannot be kept against a crash: " + problem->sentence);
+  // No work of anybody's has failed: it is told as long as it is so, and work goes on.
+  if (auto problem = memory.journal->problem(); problem != memory.unkept) {
+    memory.unkept = std::move(problem);
+    memory.tells_unkept = memory.unkept.has_value();
+  }
 
   const Document& document = snapshot->document;
   const Layer* layer = document.selected ? document.find(*document.selected) : nullptr;
@@ -276,7 +297,7 @@ void Editor::perform_window(const Action& action) {
                    if (a.window == action::Window::kPreferences) state_.show_preferences = a.shown;
                    if (a.window == action::Window::kAbout) state_.show_about = a.shown;
                  },
-                 [&](const action::DismissNotice&) { state_.notice.clear(); },
+                 [&](const action::DismissNotice&) { dismiss_notice(); },
                  [&](const action::Say& a) { say(a.text); },
                  [](const auto&) {},
              },

@@ -82,6 +82,9 @@ private:
     /// The project that is being opened in it; empty once it is there.
     std::filesystem::path coming;
     std::shared_ptr<SessionJournal> journal;
+    /// Why not all that was done is in it, and whether that is said.
+    std::optional<Error> unkept;
+    bool tells_unkept = false;
     /// Of the tab's path; none where another window has it.
     std::optional<FileClaim> claim;
     /// The file there as it was opened or saved last.
@@ -153,7 +156,8 @@ private:
 
   /// Says over the canvases that a file was not opened; work goes on meanwhile.
   void tell_unopened(const std::filesystem::path& path, const Error& error);
-  void add_notice(const std::string& line);
+  void write_notice();
+  void dismiss_notice();
 
   void take_inbox();
   void watch_tab(Tab& tab);
@@ -171,6 +175,8 @@ private:
   CanvasRects canvases_;
   CanvasRects last_canvases_;
   double now_s_ = 0;
+  /// Lines of the notice that stay until the next file is opened.
+  std::vector<std::string> told_;
   int next_tab_ = 1;
   bool quit_ = false;
   std::vector<Error> problems_;

@@ -96,7 +96,7 @@ void Editor::open(const fs::path& path, bool remember) {
     return request_file(FileRequest::For::kOpen, tab != nullptr ? tab->folder : fs::path());
   }
   state_.file_request.reset();
-  state_.notice.clear();
+  told_.clear();
   const fs::path file = made_absolute(path);
   for (std::size_t i = 0; i < state_.tabs.size(); ++i)
     if (state_.tabs[i].path == file || memories_[state_.tabs[i].id].coming == file) {
@@ -171,7 +171,7 @@ void Editor::add_source(const fs::path& path) {
   Tab* tab = state_.tab();
   if (path.empty()) return request_file(FileRequest::For::kAddSource, tab != nullptr ? tab->folder : fs::path());
   state_.file_request.reset();
-  state_.notice.clear();
+  told_.clear();
   const bool own_target = path == kTargetName;
   if (tab == nullptr || (is_untouched(*tab) && !own_target)) return open(path);
   const fs::path file = own_target ? path : made_absolute(path);
@@ -189,7 +189,7 @@ void Editor::set_target(const fs::path& path) {
   Tab* tab = state_.tab();
   if (path.empty()) return request_file(FileRequest::For::kSetTarget, tab != nullptr ? tab->folder : fs::path());
   state_.file_request.reset();
-  state_.notice.clear();
+  told_.clear();
   if (tab == nullptr || is_untouched(*tab)) return open(path);
   const fs::path file = made_absolute(path);
   const auto job = [file, limits = io_limits()](Session& session, const Watch& watch) {
@@ -244,11 +244,7 @@ void Editor::tell_unopened(const fs::path& path, const Error& error) {
   // Some are whole sentences, which here go on after the colon.
   if (named && why.size() > 1 && std::islower(static_cast<unsigned char>(why[1])) != 0)
     why[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(why[0])));
-  add_notice(path.filename().string() + " is not opened: " + why);
-}
-
-void Editor::add_notice(const std::string& line) {
-  state_.notice += (state_.notice.empty() ? "" : "\n") + line;
+  told_.push_back(path.filename().string() + " is not opened: " + why);
 }
 
 void Editor::save(Tab& tab) {

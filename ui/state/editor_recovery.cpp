@@ -64,7 +64,7 @@ void Editor::recover_now(const RecoveredWork& work) {
   memories_[tab.id].coming = work.project;
   tab.name = work.name;
   tab.folder = work.project.parent_path();
-  const auto said = std::make_shared<std::string>();
+  const auto lacks = std::make_shared<std::string>();
   const auto claim = std::make_shared<std::optional<FileClaim>>();
   const auto job = [=, journal = memories_[tab.id].journal, folder = setup_.state_folder,
                     limits = io_limits()](Session& session, const Watch& watch) -> Result<void> {
@@ -74,8 +74,7 @@ void Editor::recover_now(const RecoveredWork& work) {
     journal->resume(session, std::move(recovered->journal));
     if (!work.project.empty())
       if (auto taken = FileClaim::take(folder, work.project)) *claim = std::move(*taken);
-    *said = recovered->message.empty() ? work.name + " is as it was before the program ended; it is not saved yet"
-                                       : work.name + " is recovered as far as it goes: " + recovered->message;
+    *lacks = recovered->message;
     return {};
   };
   const auto then = [=, id = tab.id](Editor& editor, const Result<void>& result) {
@@ -87,7 +86,8 @@ void Editor::recover_now(const RecoveredWork& work) {
       recovered.read_only = !work.project.empty() && !*claim;
       editor.memories_[id].claim = std::move(*claim);
       editor.memories_[id].stamp = work.stamp;
-      return editor.say(*said);
+      if (lacks->empty()) return editor.say(work.name + " is as it was before the program ended; it is not saved yet");
+      return editor.told_.push_back(work.name + " is recovered as far as it goes: " + *lacks);
     }
     // Nothing is lost: it is offered again, behind the others, whose places do not change.
     editor.say(result.error());
@@ -102,7 +102,9 @@ void Editor::tell_unrecovered(std::size_t index, const Error& error) {
   if (error.code == cancelled().code || state_.question) return;
   Question question;
   question.title = state_.recovered[index].name + " cannot be recovered";
-  question.text = to_line(error) + ". It is kept for a week, and offered again.";
+  std::string why = to_line(error);
+  if (!why.ends_with('.')) why += ".";
+  question.text = why + " It is kept for a week, and offered again.";
   question.answers = {{"keep", "Keep", {}, true},
                       {"discard", "Throw away", {action::DiscardRecovered{index, true}}, false}};
   state_.question = std::move(question);

@@ -84,15 +84,20 @@ std::string elided(std::string_view text, float width) {
   const auto measure = [](std::string_view part) {
     return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
   };
-  if (measure(text) <= width) return std::string(text);
+  // No letter has more than four bytes or is narrower than a pixel: what is beyond is not even measured.
+  const std::size_t most = 4 * static_cast<std::size_t>(std::max(0.0F, width)) + 4;
+  if (text.size() <= most && measure(text) <= width) return std::string(text);
   const std::string_view dots = "…";
-  std::size_t keep = text.size();
-  while (keep > 0 && measure(text.substr(0, keep)) + measure(dots) > width) {
-    --keep;
-    // Not within a character of several bytes.
-    while (keep > 0 && (static_cast<unsigned char>(text[keep]) & 0xC0) == 0x80)
-      --keep;
+  const float room = width - measure(dots);
+  // The most bytes that fit.
+  std::size_t keep = 0, beyond = std::min(text.size(), most) + 1;
+  while (keep + 1 < beyond) {
+    const std::size_t middle = (keep + beyond) / 2;
+    (measure(text.substr(0, middle)) <= room ? keep : beyond) = middle;
   }
+  // Not within a character of several bytes.
+  while (keep > 0 && keep < text.size() && (static_cast<unsigned char>(text[keep]) & 0xC0) == 0x80)
+    --keep;
   return keep == 0 ? std::string() : std::string(text.substr(0, keep)) + std::string(dots);
 }
 

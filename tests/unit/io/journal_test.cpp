@@ -4,11 +4,10 @@
 #include "core/io/runner.h"
 
 #include "tests/support/kept_variable.h"
-#include "tests/unit/io/projects.h"
+#include "tests/unit/io/journal_fixture.h"
 
 #include <csignal>
 #include <cstdlib>
-#include <map>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,41 +16,6 @@ namespace {
 
 using namespace testing;
 namespace fs = std::filesystem;
-
-class JournalTest : public ::testing::Test {
-protected:
-  Journal begin(const fs::path& base = {}) {
-    auto journal = Journal::begin(folder.path(), "work.ora", base);
-    EXPECT_TRUE(journal.ok()) << (journal.ok() ? "" : to_string(journal.error()));
-    return std::move(*journal);
-  }
-  /// Everything that the session logged from there on.
-  static void append_from(Journal& journal, const Session& session, std::size_t first) {
-    for (std::size_t i = first; i < session.log().size(); ++i) {
-      const auto done = journal.append(session.log()[i]);
-      ASSERT_TRUE(done.ok()) << to_string(done.error());
-    }
-  }
-  RecoveredJournal recover(const fs::path& journal) {
-    auto recovered = recover_journal(journal);
-    EXPECT_TRUE(recovered.ok()) << (recovered.ok() ? "" : to_string(recovered.error()));
-    return std::move(*recovered);
-  }
-  static void expect_same(Session& again, Session& session) {
-    EXPECT_EQ(again.document(), session.document());
-    EXPECT_EQ(again.history().cursor(), session.history().cursor());
-    EXPECT_EQ(again.history().entries().size(), session.history().entries().size());
-    EXPECT_EQ(picture_of(again), picture_of(session));
-  }
-  std::string text(const fs::path& journal) const {
-    return folder.read(fs::relative(journal / "journal.jsonl", folder.path()).string());
-  }
-  void set_text(const fs::path& journal, const std::string& text) const {
-    folder.write(fs::relative(journal / "journal.jsonl", folder.path()).string(), text);
-  }
-
-  TempFolder folder;
-};
 
 TEST_F(JournalTest, what_cannot_be_written_or_read_is_an_error) {
   folder.write("file", "no folder");
@@ -103,40 +67,6 @@ TEST_F(JournalTest, brings_back_what_was_done) {
     recovered.journal.discard();
     EXPECT_FALSE(fs::exists(left));
   }
-}
-
-TEST_F(JournalTest, keeps_a_picture_as_the_file_it_was_read_from) {
-  const fs::path file = folder / "sea.jpg";
-  ASSERT_TRUE(save_image(wavy_image(70, 50, 1), file).ok());
-  const std::string bytes = folder.read("sea.jpg");
-  Session session;
-  ASSERT_TRUE(session.execute(DocumentNew{ImageRef{file.string(), *load_image(file)}, {}, {}, {}}).ok());
-  // Made here, so that it has no file; and the same pixels as the target's from a file of another kind.
-  ASSERT_TRUE(session.execute(LayerAdd{loaded_ref("made.jpg", wavy_image(40, 30, 2)), {}}).ok());
-  auto packed = encode_png(session.document().target.image);
-  ASSERT_TRUE(packed.ok());
-  ASSERT_TRUE(session.execute(LayerAdd{loaded_ref("again", *decode_file(std::move(*packed))), {}}).ok());
-  // What becomes of the file afterwards is nobody's concern.
-  folder.write("sea.jpg", "something else");
-  fs::path left;
-  {
-    Journal journal = begin();
-    append_from(journal, session, 0);
-    left = journal.folder();
-  }
-  std::map<std::string, std::string> kept;
-  for (const auto& entry : fs::recursive_directory_iterator(left / "images"))
-    if (entry.is_regular_file())
-      kept[entry.path().filename().string()] = folder.read(fs::relative(entry.path(), folder.path()).string());
-  EXPECT_EQ(kept.size(), 2U) << "each content once";
-  EXPECT_EQ(kept["sea.jpg"], bytes);
-  EXPECT_EQ(kept["made.jpg"].substr(0, 8), "OSFLOAT1") << "packed: no PNG holds it";
-  RecoveredJournal recovered = recover(left);
-  EXPECT_EQ(recovered.message, "");
-  expect_same(recovered.session, session);
-  // It goes on with its own files.
-  const Image& target = recovered.session.document().target.image;
-  EXPECT_EQ(std::string(reinterpret_cast<const char*>(target.file().data()), target.file().size()), bytes);
 }
 
 TEST_F(JournalTest, is_a_script_that_others_can_run) {

@@ -2,6 +2,9 @@
 
 #include "tests/unit/io/projects.h"
 
+#include <condition_variable>
+#include <mutex>
+
 namespace oversketch {
 namespace {
 
@@ -57,6 +60,34 @@ TEST(JournalWriter, tells_what_could_not_be_written_and_goes_on_when_it_can) {
   const auto recovered = recover_journal(left);
   ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
   EXPECT_EQ(recovered->steps, 2);
+}
+
+TEST(JournalWriter, tries_again_by_itself_when_nothing_more_is_done) {
+  const TempFolder folder;
+  auto journal = Journal::begin(folder.path(), "work");
+  ASSERT_TRUE(journal.ok());
+  const fs::path left = journal->folder();
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<bool> news;
+  const auto on_news = [&](const std::optional<Error>& problem) {
+    const std::lock_guard lock(mutex);
+    news.push_back(problem.has_value());
+    changed.notify_all();
+  };
+  JournalWriter writer(std::move(*journal), on_news, std::chrono::milliseconds(5));
+  ASSERT_TRUE(write_file(left / "images", "in the way").ok());
+  DocumentNew begin;
+  begin.target = loaded_ref("target.png", wavy_image(20, 20, 1));
+  writer.append(begin);
+  writer.flush();
+  ASSERT_TRUE(writer.problem().has_value());
+  fs::remove(left / "images");
+  std::unique_lock lock(mutex);
+  EXPECT_TRUE(changed.wait_for(lock, std::chrono::seconds(60), [&] { return news.size() > 1; }));
+  EXPECT_EQ(news, (std::vector<bool>{true, false}));
+  lock.unlock();
+  EXPECT_NE(read_text_file(left / "journal.jsonl")->find("document.new"), std::string::npos);
 }
 
 TEST(JournalWriter, leaves_nothing_after_a_clean_exit) {

@@ -2,6 +2,8 @@
 
 #include "tests/unit/io/projects.h"
 
+#include <functional>
+
 namespace oversketch {
 namespace {
 
@@ -31,7 +33,7 @@ DocumentNew begin_with(int side) {
 
 const Command kAddTarget = LayerAdd{{std::string(kTargetName), {}}, "part"};
 
-TEST(SessionJournal, tells_once_that_it_cannot_write_and_stops_nothing) {
+TEST(SessionJournal, tells_as_long_as_it_cannot_write_and_stops_nothing) {
   const TempFolder folder;
   folder.write("plain", "a file, not a folder");
   Followed work(folder / "plain", "sea");
@@ -39,15 +41,14 @@ TEST(SessionJournal, tells_once_that_it_cannot_write_and_stops_nothing) {
   work.run(kAddTarget);
   work.run(LayerRename{{}, "other"});
   EXPECT_EQ(work.told, 1);
-  const auto problem = work.journal.take_problem();
-  ASSERT_TRUE(problem.has_value());
-  EXPECT_EQ(problem->code, "journal.write");
-  EXPECT_EQ(work.journal.take_problem(), std::nullopt);
+  ASSERT_TRUE(work.journal.problem().has_value());
+  EXPECT_EQ(work.journal.problem()->code, "journal.write");
   // The disk is there again: nothing is missing.
   fs::remove(folder / "plain");
   work.run(LayerRename{{}, "third"});
   work.journal.flush();
-  EXPECT_EQ(work.told, 1);
+  EXPECT_EQ(work.told, 2);
+  EXPECT_EQ(work.journal.problem(), std::nullopt);
   const auto left = fs::directory_iterator(folder / "plain/journals")->path();
   work.journal.discard();
   EXPECT_FALSE(fs::exists(left));
@@ -124,6 +125,56 @@ TEST(SessionJournal, what_was_opened_is_copied_before_anybody_saves_over_it) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, file.string());
   EXPECT_EQ(found[0].steps, 1);
+  const auto recovered = recover_journal(found[0].folder);
+  ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
+  EXPECT_EQ(recovered->session.document(), document);
+}
+
+/// Opens a picture, saves it, does what `meanwhile` does to the file, goes on, and crashes.
+void expect_recovered_after_saving(const std::function<void(const fs::path& file)>& meanwhile) {
+  const TempFolder folder;
+  const fs::path file = folder / "sea.ora";
+  Document document;
+  {
+    Followed work(folder / "state", "sea");
+    work.run(begin_with(20));
+    ASSERT_TRUE(save_project(work.session, file).ok());
+    work.session.mark_saved();
+    work.journal.mark_saved(work.session, file);
+    meanwhile(file);
+    work.run(kAddTarget);
+    document = work.session.document();
+  }
+  const auto found = list_abandoned_journals(folder / "state");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, file.string());
+  const auto recovered = recover_journal(found[0].folder);
+  ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
+  EXPECT_EQ(recovered->message, "");
+  EXPECT_EQ(recovered->session.document(), document);
+}
+
+TEST(SessionJournal, what_becomes_of_a_saved_file_is_nobodys_concern) {
+  expect_recovered_after_saving([](const fs::path& file) { fs::remove(file); });
+  expect_recovered_after_saving([](const fs::path& file) {
+    Session other = small_session();
+    ASSERT_TRUE(save_project(other, file).ok());
+  });
+}
+
+TEST(SessionJournal, begins_at_the_beginning_where_the_saved_file_is_gone) {
+  const TempFolder folder;
+  Document document;
+  {
+    Followed work(folder / "state", "sea");
+    work.run(begin_with(20));
+    work.journal.mark_saved(work.session, folder / "none.ora");
+    EXPECT_EQ(work.journal.problem(), std::nullopt);
+    work.run(kAddTarget);
+    document = work.session.document();
+  }
+  const auto found = list_abandoned_journals(folder / "state");
+  ASSERT_EQ(found.size(), 1u);
   const auto recovered = recover_journal(found[0].folder);
   ASSERT_TRUE(recovered.ok()) << to_string(recovered.error());
   EXPECT_EQ(recovered->session.document(), document);

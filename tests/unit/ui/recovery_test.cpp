@@ -76,7 +76,7 @@ protected:
   fs::path state_ = folder_ / "state";
 };
 
-TEST_F(Recovery, a_journal_that_cannot_be_written_is_said_once) {
+TEST_F(Recovery, a_journal_that_cannot_be_written_is_said_as_long_as_it_is_so) {
   folder_.write("plain", "a file, not a folder");
   Program run(folder_ / "plain");
   run.does(action::Open{picture("sea.png", 60)});
@@ -84,9 +84,21 @@ TEST_F(Recovery, a_journal_that_cannot_be_written_is_said_once) {
   EXPECT_NE(run.state().notice.find("crash"), std::string::npos) << run.state().notice;
   EXPECT_TRUE(run.editor.take_problems().empty());
   EXPECT_EQ(run.snapshot()->document.layers.size(), 1u);
+  run.does(action::Open{picture("fish.png", 50)});
+  EXPECT_NE(run.state().notice.find("crash"), std::string::npos) << "another file that is opened does not mend it";
+  run.does(action::SelectTab{0});
   run.does(action::DismissNotice{});
   run.does(action::Execute{LayerRename{{}, "puffer"}});
-  EXPECT_TRUE(run.state().notice.empty());
+  EXPECT_TRUE(run.state().notice.empty()) << "said already";
+  fs::remove(folder_ / "plain");
+  run.does(action::Execute{LayerRename{{}, "puffer fish"}});
+  fs::remove_all(folder_ / "plain");
+  folder_.write("plain", "a file again");
+  run.does(action::Open{picture("third.png", 40)});
+  run.does(action::AddSource{std::string(kTargetName)});
+  EXPECT_NE(run.state().notice.find("third cannot be kept"), std::string::npos) << run.state().notice;
+  run.does(action::CloseTab{2, true});
+  EXPECT_EQ(run.state().notice.find("third"), std::string::npos) << run.state().notice;
 }
 
 TEST_F(Recovery, a_clean_end_leaves_nothing) {

@@ -162,6 +162,10 @@ TEST_F(Widgets, TextIsElidedAtCharactersAndFits) {
       }
     }
     EXPECT_EQ(elided(text, 1e6F), text);
+    const std::string long_name(1'000'000, 'i'), cut = elided(long_name, 100);
+    EXPECT_LT(cut.size(), 105U);
+    EXPECT_LE(ImGui::CalcTextSize(cut.c_str()).x, 100);
+    EXPECT_GT(ImGui::CalcTextSize(("i" + cut).c_str()).x, 100) << "as much as there is room for";
   });
 }
 
