@@ -55,7 +55,7 @@ void write_ramp(const Float4& value, const Float4& step, int count, Float4* to) 
     to[i] = a;
 }
 
-/// b of u harmonic: the ring's values beside each pixel.
+/// b of u harmonic, all of it: the ring's values beside each pixel.
 void set_membrane_side(const std::vector<Float4>& ring, const PixelGraph& graph, MultigridSolve& solve) {
   // Zeros but while a run's few others stand in it.
   std::vector<Float4> line;
@@ -150,7 +150,9 @@ Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPi
   const StageTimer timer(watch.times, "clone.solve");
   MultigridSolve& solve = **grids;
   const PixelGraph& graph = system.graph();
-  if (options.mode != BlendMode::kMixed)
+  if (options.mode != BlendMode::kMixed && way.membrane)
+    solve.set_ring_side(graph, ring);
+  else if (options.mode != BlendMode::kMixed)
     set_membrane_side(ring, graph, solve);
   else if (!set_mixed_side(read, graph.mask, solve, threads))
     return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};

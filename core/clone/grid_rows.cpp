@@ -79,7 +79,7 @@ void GridRows::fetch(int row, std::size_t part, std::size_t parts) const {
   const std::size_t lines = (end - begin + kLine - 1) / kLine;
   const std::size_t until = begin + lines * (part + 1) / parts * kLine;
   for (std::size_t at = begin + lines * part / parts * kLine; at < until; at += kLine) {
-    __builtin_prefetch(values_.b + at, 0, 2);
+    if (!values_.is_b_beside_boundary) __builtin_prefetch(values_.b + at, 0, 2);
     __builtin_prefetch(values_.u + at, 1, 2);
   }
 }
@@ -94,7 +94,7 @@ std::span<const GridPiece> GridRows::pieces(int row) {
   return pieces_[at];
 }
 
-/// Calls work(slot, neighbours, floats) for stretches of one colour, a missing neighbour standing as zeros.
+/// Calls work(slot, b, neighbours, floats) for stretches of one colour, a missing neighbour standing as zeros.
 template <class Work>
 void GridRows::for_cells(const float* u, int row, int colour, Work work) {
   for (const GridPiece& piece : pieces(row)) {
@@ -105,7 +105,10 @@ void GridRows::for_cells(const float* u, int row, int colour, Work work) {
       const GridNeighbours at{has_west ? u + west : zeros_, has_east ? u + west + kC : zeros_,
                               cells.north >= 0 ? u + at_slot(cells.north + from) : zeros_,
                               cells.south >= 0 ? u + at_slot(cells.south + from) : zeros_};
-      work(cells.at + from, at, at_slot(count));
+      const bool is_b_zero =
+          values_.is_b_beside_boundary && has_west && has_east && cells.north >= 0 && cells.south >= 0;
+      const int slot = cells.at + from;
+      work(slot, is_b_zero ? zeros_ : values_.b + at_slot(slot), at, at_slot(count));
     };
     int from = 0, to = cells.count;
     if (cells.opens) pick(from++, 1, false, !(cells.closes && cells.count == 1));
@@ -133,8 +136,8 @@ void GridRows::for_irregular(int row, int colour, Work work) const {
 }
 
 void GridRows::relax(int row, int colour) {
-  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
-    kernels_.relax(values_.u + at_slot(slot), values_.b + at_slot(slot), at, count, inverse_);
+  for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+    kernels_.relax(values_.u + at_slot(slot), b, at, count, inverse_);
   });
   for_irregular(row, colour, [&](std::size_t at, float scale) {
     for (std::size_t k = 0; k < kC; ++k)
@@ -143,8 +146,8 @@ void GridRows::relax(int row, int colour) {
 }
 
 void GridRows::relax_from_zero(int row, int colour) {
-  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours&, std::size_t count) {
-    kernels_.relax_zero(values_.u + at_slot(slot), values_.b + at_slot(slot), count, inverse_);
+  for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours&, std::size_t count) {
+    kernels_.relax_zero(values_.u + at_slot(slot), b, count, inverse_);
   });
   for_irregular(row, colour, [&](std::size_t at, float scale) {
     for (std::size_t k = 0; k < kC; ++k)
@@ -178,7 +181,8 @@ void GridRows::inject(int row, const GridLevel& coarse, const float* coarse_u, f
 void GridRows::correct(int row) {
   // Of the four neighbours only those in rows with coarse nodes carry anything.
   const bool level_ones = has_coarse_nodes(row);
-  for_cells(values_.u, row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
+  const int colour = 1 - level_.coarse_colour();
+  for_cells(values_.u, row, colour, [&](int slot, const float*, const GridNeighbours& at, std::size_t count) {
     kernels_.add_half(values_.u + at_slot(slot), level_ones ? at.west : at.north, level_ones ? at.east : at.south,
                       count);
   });
@@ -186,9 +190,10 @@ void GridRows::correct(int row) {
 
 void GridRows::correct_from_side(int row) {
   const bool level_ones = has_coarse_nodes(row);
-  for_cells(values_.u, row, 1 - level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
-    kernels_.start_half(values_.u + at_slot(slot), values_.b + at_slot(slot), level_ones ? at.west : at.north,
-                        level_ones ? at.east : at.south, count, inverse_);
+  const int colour = 1 - level_.coarse_colour();
+  for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+    kernels_.start_half(values_.u + at_slot(slot), b, level_ones ? at.west : at.north, level_ones ? at.east : at.south,
+                        count, inverse_);
   });
 }
 
@@ -208,9 +213,8 @@ const float* GridRows::residual(int row) {
 void GridRows::fill_residual(int row, float* r) {
   const int first = level_.first_in(row), colour = level_.coarse_colour();
   const float extra = level_.diagonal - 4;
-  for_cells(values_.u, row, colour, [&](int slot, const GridNeighbours& at, std::size_t count) {
-    const std::size_t k = at_slot(slot);
-    kernels_.residual(r + at_slot(slot - first), values_.b + k, values_.u + k, at, count, extra);
+  for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+    kernels_.residual(r + at_slot(slot - first), b, values_.u + at_slot(slot), at, count, extra);
   });
   for_irregular(row, colour, [&](std::size_t at, float scale) {
     const float surplus = level_.diagonal / scale - level_.diagonal;
@@ -221,8 +225,9 @@ void GridRows::fill_residual(int row, float* r) {
 
 void GridRows::fill_residual_of_side(int row, float* r) {
   const int first = level_.first_in(row);
-  for_cells(values_.b, row, level_.coarse_colour(), [&](int slot, const GridNeighbours& at, std::size_t count) {
-    kernels_.eliminate(r + at_slot(slot - first), values_.b + at_slot(slot), at, count, inverse_);
+  const int colour = level_.coarse_colour();
+  for_cells(values_.b, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+    kernels_.eliminate(r + at_slot(slot - first), b, at, count, inverse_);
   });
 }
 

@@ -13,6 +13,8 @@ namespace oversketch {
 struct GridValues {
   float* u = nullptr;
   float* b = nullptr;
+  /// b is 0 where all four neighbours are connected, and does not stand there: what is not read costs no time.
+  bool is_b_beside_boundary = false;
 };
 
 /// Works on single rows of a grid: what a cycle does is put together from these.  One thread uses one object.

@@ -8,6 +8,7 @@
 #include "core/clone/pixel_planes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -118,7 +119,7 @@ struct MultigridSolve::State {
     float* at = memory.data();
     for (const GridLevel& level : data->levels) {
       const std::size_t size = kC * static_cast<std::size_t>(level.count()) + kBeyond;
-      values.push_back({at, at + size});
+      values.push_back({at, at + size, false});
       at += 2 * size;
     }
   }
@@ -249,6 +250,8 @@ struct MultigridSolve::State {
   std::vector<float, BulkAllocator<float>> memory;
   std::vector<GridValues> values;
   bool is_zero = true;
+  /// See set_ring_side().  Several threads may set sides.
+  std::atomic<bool> is_ring_side = false;
   /// Whether all coarse grids are visited twice.
   bool is_slow = false;
   /// The contraction of W cycles, where that is poor; else 0.
@@ -271,11 +274,36 @@ float* MultigridSolve::State::in_run(float* slots, std::size_t run, std::size_t 
   return slots + kC * static_cast<std::size_t>(runs[run].first);
 }
 
+void MultigridSolve::set_ring_side(const PixelGraph& graph, std::span<const Float4> values) {
+  CHECK(values.size() == graph.ring.size(), "a value for each of the ring's edges");
+  float* const b = state_->values[0].b;
+  const GridLevel& level = state_->level(0);
+  // A single grid is not worked on row by row.
+  state_->is_ring_side = state_->last() > 0;
+  if (!state_->is_ring_side) std::fill_n(b, kC * static_cast<std::size_t>(level.count()), 0.0F);
+  std::size_t begin = 0;
+  for (std::size_t run = 0; run < graph.first.size(); ++run) {
+    std::size_t end = begin;
+    const auto slot_of = [&](std::size_t edge) {
+      const int x = level.x0_of(static_cast<int>(run)) + graph.ring[edge].pixel - graph.first[run];
+      return b + kC * static_cast<std::size_t>(level.slot(static_cast<int>(run), x));
+    };
+    const int after = level.first_of(static_cast<int>(run) + 1);
+    for (; end < graph.ring.size() && graph.ring[end].pixel < after; ++end)
+      std::fill_n(slot_of(end), kC, 0.0F);
+    for (; begin < end; ++begin)
+      for (std::size_t k = 0; k < kC; ++k)
+        slot_of(begin)[k] += values[begin][k];
+  }
+}
+
 void MultigridSolve::set_side(std::size_t run, std::span<const Float4> values) {
+  state_->is_ring_side = false;
   to_slots(values, state_->in_run(state_->values[0].b, run, values.size()));
 }
 
 void MultigridSolve::set_side(std::size_t run, const float* planes, std::size_t stride) {
+  state_->is_ring_side = false;
   const std::vector<GridLevel::Run>& runs = state_->level(0).runs;
   const auto count = static_cast<std::size_t>(runs[run + 1].first - runs[run].first);
   to_slots(planes, stride, count, state_->in_run(state_->values[0].b, run, count));
@@ -295,6 +323,8 @@ void MultigridSolve::get(std::size_t run, std::span<Float4> values) const {
 }
 
 Result<MultigridSolve::Outcome> MultigridSolve::solve(double tolerance, int least, int most, const Watch& watch) {
+  CHECK(!state_->is_zero || !state_->is_ring_side, "a ring's side goes with a start");
+  state_->values[0].is_b_beside_boundary = state_->is_ring_side;
   // What was learnt before is forgotten: the same b and start give the same bits, whatever was solved in between.
   state_->is_slow = false;
   state_->slowness = 0;

@@ -3,6 +3,7 @@
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/clone/float4.h"
+#include "core/clone/pixel_graph.h"
 #include "core/geometry/mask.h"
 
 #include <cstddef>
@@ -61,6 +62,10 @@ public:
   void set_side(std::size_t run, std::span<const Float4> values);
   /// The same from three planes, `stride` floats apart.
   void set_side(std::size_t run, const float* planes, std::size_t stride);
+  /// In place of set_side() of all runs, where b is 0 but beside the boundary, and a start is set (CHECK in solve()):
+  /// the sums of `values` at the pixels of the ring's edges.  Three quarters of the time, for b is not read elsewhere.
+  /// @param graph  of the mask.
+  void set_ring_side(const PixelGraph& graph, std::span<const Float4> values);
   /// Where to start from: all of u, or zero, from where the first cycle looks at the coarser grids twice.
   void set_start(std::size_t run, std::span<const Float4> values);
   void start_from_zero();

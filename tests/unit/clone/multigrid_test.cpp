@@ -162,6 +162,50 @@ TEST(Multigrid, GivesTheSameBitsWithAnyNumberOfThreads) {
   }
 }
 
+TEST(Multigrid, ARingsSideGivesTheBitsThatAllOfItGives) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> value;
+  for (const auto& [name, mask] : all_masks()) {
+    SCOPED_TRACE(name);
+    const PixelGraph graph(mask);
+    std::vector<Float4> ring(graph.ring.size());
+    for (Float4& v : ring)
+      v = {Float4::Lanes{value(random), value(random), value(random), 0}};
+    std::vector<Channels> b(static_cast<std::size_t>(mask.count()));
+    std::vector<Float4> line;
+    MultigridSolve solve = make_solve(mask);
+    const auto solved = [&] {
+      for (std::size_t run = 0; run < mask.runs().size(); ++run) {
+        line.assign(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0),
+                    {Float4::Lanes{0.5F, 0.1F, -0.2F, 0}});
+        solve.set_start(run, line);
+      }
+      EXPECT_TRUE(solve.solve(0, 3, 3).ok());
+      return get(solve, mask);
+    };
+    // What stands in b from before is not to be read.
+    set_side(solve, mask, noise_side(mask, 9));
+    solve.set_ring_side(graph, ring);
+    const std::vector<Float4> from_ring = solved();
+    std::vector<Float4> sums(b.size());
+    for (std::size_t edge = 0; edge < ring.size(); ++edge)
+      sums[static_cast<std::size_t>(graph.ring[edge].pixel)] += ring[edge];
+    for (std::size_t i = 0; i < b.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        b[i].v[k] = sums[i][k];
+    set_side(solve, mask, b);
+    const std::vector<Float4> from_all = solved();
+    for (std::size_t i = 0; i < b.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(from_ring[i][k], from_all[i][k]) << i;
+  }
+  MultigridSolve solve = make_solve(disc_mask(0, 0, 60));
+  const PixelGraph graph(disc_mask(0, 0, 60));
+  solve.set_ring_side(graph, std::vector<Float4>(graph.ring.size()));
+  solve.start_from_zero();
+  EXPECT_THROW((void)solve.solve(0, 1, 1), BugError);
+}
+
 TEST(Multigrid, MemoryFollowsThePixels) {
   for (const auto& [name, mask] : all_masks()) {
     const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
