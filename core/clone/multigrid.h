@@ -25,7 +25,8 @@ class MaskMultigrid {
 public:
   /// @param screening  λ ≥ 0, per px².
   /// @errors clone.empty-mask; clone.too-large (above 200 million pixels, 8 GB); cancelled.
-  /// @cost O(runs + perimeter).  Stores 8 bytes a run, 4 a row, and a little along the boundary.
+  /// @cost O(runs + perimeter).  Stores 8 bytes a run, 4 a row, a little along the boundary, and up to 3 bytes a pixel
+  ///   of what is looked up in each pass.
   static Result<MaskMultigrid> make(const Mask& mask, double screening = 0, const Watch& watch = {});
 
   int unknowns() const;
