@@ -2,7 +2,6 @@
 
 #include "core/base/check.h"
 #include "core/clone/grid_kernels.h"
-#include "core/clone/grid_level.h"
 #include "core/clone/pixel_solver.h"
 #include "tests/unit/clone/grid_shapes.h"
 
@@ -174,7 +173,7 @@ TEST(Multigrid, ARingsSideGivesTheBitsThatAllOfItGives) {
     std::vector<Channels> b(static_cast<std::size_t>(mask.count()));
     std::vector<Float4> line;
     MultigridSolve solve = make_solve(mask);
-    const auto solved = [&] {
+    const auto solved = [&, &mask = mask] {
       for (std::size_t run = 0; run < mask.runs().size(); ++run) {
         line.assign(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0),
                     {Float4::Lanes{0.5F, 0.1F, -0.2F, 0}});
@@ -395,47 +394,6 @@ TEST(GridKernels, JudgeNearTiesExactly) {
     }
     EXPECT_GT(kept, static_cast<int>(kPairs / 10));
     EXPECT_LT(kept, static_cast<int>(kPairs - kPairs / 10));
-  }
-}
-
-TEST(GridLevel, AnIndexTellsOfEachRowWhatLookingTells) {
-  for (const auto& [name, mask] : all_masks()) {
-    SCOPED_TRACE(name);
-    GridMaking made = make_finest(mask, 0);
-    for (; made.level.count() > 0; made = coarsen(made, 0)) {
-      GridLevel level = made.level;
-      const std::int64_t before = level.bytes(), took = index_rows(level, 1'000'000'000);
-      EXPECT_EQ(level.bytes() - before, took);
-      std::vector<GridPiece> pieces;
-      const GridRowIndex& index = level.index;
-      for (int row = 0; row < level.rows(); ++row) {
-        const auto r = static_cast<std::size_t>(row);
-        expand_row(level, row, pieces);
-        EXPECT_TRUE(std::equal(pieces.begin(), pieces.end(), index.pieces.begin() + index.first_piece[r],
-                               index.pieces.begin() + index.first_piece[r + 1]));
-        for (std::size_t colour = 0; colour < 2; ++colour) {
-          const std::vector<GridLevel::Irregular>& list = level.irregular[colour];
-          const auto begin = static_cast<std::size_t>(index.first_irregular[colour][r]),
-                     end = static_cast<std::size_t>(index.first_irregular[colour][r + 1]);
-          for (std::size_t i = 0; i < list.size(); ++i)
-            EXPECT_EQ(i >= begin && i < end, list[i].slot >= level.first_in(row) && list[i].slot < level.last_in(row));
-        }
-      }
-      level.index = {};
-      EXPECT_EQ(index_rows(level, took / 2), 0) << "more than it may take";
-      EXPECT_TRUE(level.index.empty());
-    }
-  }
-}
-
-TEST(GridLevel, NeverHasMoreThanAQuarterOfTheNodesBelow) {
-  for (const auto& [name, mask] : all_masks()) {
-    GridMaking fine = make_finest(mask, 0);
-    while (fine.level.count() > 0) {
-      GridMaking coarse = coarsen(fine, 0);
-      EXPECT_LE(4 * coarse.level.count(), fine.level.count()) << name;
-      fine = std::move(coarse);
-    }
   }
 }
 
