@@ -90,10 +90,6 @@ TEST_F(Recovery, a_journal_that_cannot_be_written_is_said_as_long_as_it_is_so) {
   run.does(action::DismissNotice{});
   run.does(action::Execute{LayerRename{{}, "puffer"}});
   EXPECT_TRUE(run.state().notice.empty()) << "said already";
-  fs::remove(folder_ / "plain");
-  run.does(action::Execute{LayerRename{{}, "puffer fish"}});
-  fs::remove_all(folder_ / "plain");
-  folder_.write("plain", "a file again");
   run.does(action::Open{picture("third.png", 40)});
   run.does(action::AddSource{std::string(kTargetName)});
   EXPECT_NE(run.state().notice.find("third cannot be kept"), std::string::npos) << run.state().notice;
