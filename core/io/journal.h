@@ -95,7 +95,8 @@ struct RecoveredJournal {
 
 /// Replays an abandoned journal.  Nothing outside its folder is read, whatever it says.
 ///
-/// Stops at the first line that fails; what was before it is recovered, the rest kept beside as journal.jsonl~.
+/// Stops at the first line that fails; what was before it is recovered, the rest is added to
+/// journal.jsonl~ beside it.
 /// @errors journal.in-use (its process lives), journal.unreadable, project.* (of base.ora), cancelled.
 Result<RecoveredJournal> recover_journal(const std::filesystem::path& folder, const IoLimits& limits = {},
                                          const Watch& watch = {});

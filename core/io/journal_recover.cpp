@@ -6,7 +6,12 @@
 #include "core/io/project.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <optional>
+#include <span>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace oversketch {
 namespace {
@@ -60,6 +65,14 @@ void for_each_folder(const fs::path& state_folder, const Visit& visit) {
     if (entry->is_directory(failure) && !entry->is_symlink(failure)) folders.push_back(entry->path());
   for (const fs::path& folder : folders)
     visit(folder);
+}
+
+/// 0 or the system's error.
+int append_to(const fs::path& path, std::string_view text) {
+  const OpenFile file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+  if (!file.open()) return errno;
+  if (const int error = write_all(file.number(), std::as_bytes(std::span(text)))) return error;
+  return ::fsync(file.number()) == 0 ? 0 : errno;
 }
 
 /// Reads what a journal's own folder holds, and nothing else.
@@ -248,11 +261,10 @@ Result<RecoveredJournal> recover_journal(const fs::path& folder, const IoLimits&
   for (const std::string& name : replay.changed_pictures())
     message += (message.empty() ? "" : "; ") + name + " is another picture than it was: its file has been changed";
   if (kept != text->size()) {
-    WriteOptions options;
-    options.keep_previous = is_cut;
-    const std::string_view good = std::string_view(*text).substr(0, kept);
-    if (auto cut = write_file(path, std::as_bytes(std::span(good.data(), good.size())), options); !cut)
-      return cut.error();
+    const std::string_view all = *text;
+    if (const int error = is_cut ? append_to(path.string() + "~", all.substr(kept)) : 0)
+      return journal_write_error(error, path.string() + "~");
+    if (auto cut = write_file(path, all.substr(0, kept)); !cut) return cut.error();
   }
   if (auto opened = data->open_for_appending(kept); !opened) return opened.error();
   return RecoveredJournal{std::move(replay.session), JournalRecovery::adopt(std::move(data)), replay.steps, message};

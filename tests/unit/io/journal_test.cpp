@@ -167,7 +167,24 @@ TEST_F(JournalTest, replays_up_to_the_line_that_is_damaged_and_keeps_the_rest) {
   EXPECT_NE(recovered.message.find("line 7 of 8"), std::string::npos) << recovered.message;
   EXPECT_TRUE(recovered.session.document().layers[0].pins.empty());
   EXPECT_EQ(text(left), bad.substr(0, at));
-  EXPECT_TRUE(fs::exists(left / "journal.jsonl~"));
+  EXPECT_EQ(*read_text_file(left / "journal.jsonl~"), bad.substr(at));
+}
+
+TEST_F(JournalTest, what_two_recoveries_left_over_is_all_there) {
+  Session session = small_session();
+  fs::path left;
+  {
+    Journal journal = begin();
+    left = journal.folder();
+    append_from(journal, session, 0);
+  }
+  const std::string whole = text(left);
+  for (const char* rest : {"garbage\nand more\n", "garbage again\n"}) {
+    set_text(left, whole + rest);
+    EXPECT_NE(recover(left).message, "");
+    EXPECT_EQ(text(left), whole);
+  }
+  EXPECT_EQ(*read_text_file(left / "journal.jsonl~"), "garbage\nand more\ngarbage again\n");
 }
 
 TEST_F(JournalTest, passes_over_no_line_that_is_neither_a_step_nor_a_comment) {
