@@ -55,28 +55,6 @@ void write_ramp(const Float4& value, const Float4& step, int count, Float4* to) 
     to[i] = a;
 }
 
-/// b of u harmonic, all of it: the ring's values beside each pixel.
-void set_membrane_side(const std::vector<Float4>& ring, const PixelGraph& graph, MultigridSolve& solve) {
-  // Zeros but while a run's few others stand in it.
-  std::vector<Float4> line;
-  std::size_t edge = 0;
-  const std::vector<Mask::Run>& runs = graph.mask.runs();
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    const int first = graph.first[run], end = first + runs[run].x1 - runs[run].x0;
-    const auto at = [&](std::size_t of) -> Float4& {
-      return line[static_cast<std::size_t>(graph.ring[of].pixel - first)];
-    };
-    const auto count = static_cast<std::size_t>(end - first);
-    if (line.size() < count) line.resize(count);
-    const std::size_t begin = edge;
-    for (; edge < graph.ring.size() && graph.ring[edge].pixel < end; ++edge)
-      at(edge) += ring[edge];
-    solve.set_side(run, std::span(line).first(count));
-    for (std::size_t done = begin; done < edge; ++done)
-      at(done) = Float4{};
-  }
-}
-
 void start_from(const Correction& start, const Mask& mask, MultigridSolve& solve) {
   std::vector<Float4> line;
   for (std::size_t run = 0; run < mask.runs().size(); ++run) {
@@ -150,17 +128,16 @@ Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPi
   const StageTimer timer(watch.times, "clone.solve");
   MultigridSolve& solve = **grids;
   const PixelGraph& graph = system.graph();
-  if (options.mode != BlendMode::kMixed && way.membrane)
-    solve.set_ring_side(graph, ring);
-  else if (options.mode != BlendMode::kMixed)
-    set_membrane_side(ring, graph, solve);
-  else if (!set_mixed_side(read, graph.mask, solve, threads))
-    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
-  if (watch.stopped()) return cancelled();
   if (way.membrane)
     start_from({way.membrane, way.membrane->solve(ring), nullptr, 0}, graph.mask, solve);
   else
     solve.start_from_zero();
+  if (watch.stopped()) return cancelled();
+  // Of an imported gradient b is 0 but beside the ring: u is harmonic there.
+  if (options.mode != BlendMode::kMixed)
+    solve.set_ring_side(graph, ring);
+  else if (!set_mixed_side(read, graph.mask, solve, threads))
+    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
   const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
   const auto solved = solve.solve(tolerance, way.least, way.most, watch);
   if (!solved) return solved.error();

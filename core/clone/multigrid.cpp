@@ -278,8 +278,8 @@ void MultigridSolve::set_ring_side(const PixelGraph& graph, std::span<const Floa
   CHECK(values.size() == graph.ring.size(), "a value for each of the ring's edges");
   float* const b = state_->values[0].b;
   const GridLevel& level = state_->level(0);
-  // A single grid is not worked on row by row.
-  state_->is_ring_side = state_->last() > 0;
+  // From zero the first pass reads b's neighbours, too; a single grid is not worked on row by row.
+  state_->is_ring_side = !state_->is_zero && state_->last() > 0;
   if (!state_->is_ring_side) std::fill_n(b, kC * static_cast<std::size_t>(level.count()), 0.0F);
   std::size_t begin = 0;
   for (std::size_t run = 0; run < graph.first.size(); ++run) {

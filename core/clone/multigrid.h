@@ -63,8 +63,9 @@ public:
   void set_side(std::size_t run, std::span<const Float4> values);
   /// The same from three planes, `stride` floats apart.
   void set_side(std::size_t run, const float* planes, std::size_t stride);
-  /// In place of set_side() of all runs, where b is 0 but beside the boundary, and a start is set (CHECK in solve()):
-  /// the sums of `values` at the pixels of the ring's edges.  Three quarters of the time, for b is not read elsewhere.
+  /// In place of set_side() of all runs, where b is 0 but beside the boundary: the sums of `values` at the pixels of
+  /// the ring's edges.  After the start, which then stays (CHECK in solve()): unless that is zero, b is not read
+  /// elsewhere, for three quarters of the time.
   /// @param graph  of the mask.
   void set_ring_side(const PixelGraph& graph, std::span<const Float4> values);
   /// Where to start from: all of u, or zero, from where the first cycle looks at the coarser grids twice.

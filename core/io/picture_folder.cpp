@@ -1,6 +1,7 @@
 #include "core/io/picture_folder.h"
 
 #include "core/base/file.h"
+#include "core/base/text.h"
 #include "core/image/exact.h"
 #include "core/image/image_io.h"
 
@@ -21,11 +22,7 @@ fs::path fitting(const fs::path& name) {
   std::string ending = name.extension().string(), stem = name.stem().string();
   if (ending.size() > kLongestName / 2) stem += std::exchange(ending, "");
   if (stem.size() + ending.size() <= kLongestName) return name;
-  std::size_t keep = kLongestName - ending.size();
-  // Not within a character of several bytes.
-  while (keep > 0 && (static_cast<unsigned char>(stem[keep]) & 0xC0) == 0x80)
-    --keep;
-  return stem.substr(0, keep) + ending;
+  return std::string(head_of(stem, kLongestName - ending.size())) + ending;
 }
 
 /// Whether that picture can be read from the file; damage would go unseen otherwise.
@@ -74,8 +71,10 @@ Result<std::string> PictureFolder::store(const ImageRef& ref) {
   const auto named = [&](std::string_view extension) {
     return inside / (keeps_ending ? original.filename().string() : original.stem().string() + std::string(extension));
   };
-  for (const char* extension : {".png", ".osf"})
+  for (const char* extension : {".png", ".osf"}) {
     if (holds(root_ / named(extension), *ref.image)) return stored_[hash] = named(extension).generic_string();
+    if (keeps_ending) break;
+  }
   ExactPicture packed;
   if (!as_opened) {
     auto done = encode_exact(*ref.image);

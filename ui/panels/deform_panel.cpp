@@ -159,8 +159,7 @@ void draw_deform_panel(const DeformModel& model, DeformPanelState& state, const 
   if (model.energies.size() >= 2)
     draw_plot(context, "deform.energy",
               {"The energy after each step of the solver. It falls while the sketch weighs the same, and rises where "
-               "the solver "
-               "goes on to follow it more closely.",
+               "the solver goes on to follow it more closely.",
                {}},
               model.energies,
               {.caption = "energy per step", .color = context.look.plot, .height = 46, .logarithmic = true});

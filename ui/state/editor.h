@@ -113,6 +113,7 @@ private:
   Tab& empty_tab();
   /// "Untitled", "Untitled 2"…: the first that no tab has.
   std::string unused_name(const std::string& stem) const;
+  /// Nothing has begun in it.
   bool is_untouched(const Tab& tab) const;
   Tab* find_tab(int id);
   std::optional<std::size_t> index_of(int id) const;

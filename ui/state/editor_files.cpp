@@ -21,7 +21,6 @@ fs::path with_ending(fs::path path, const char* ending) {
   return path.has_extension() ? path : path += ending;
 }
 
-/// A tab in which nothing has begun.
 /// Whether nobody else has the project open; without a place for claims, nobody is known to.
 bool claim_file(const fs::path& state_folder, const fs::path& project, std::optional<FileClaim>& claim) {
   if (state_folder.empty()) return true;

@@ -1,5 +1,7 @@
 #include "ui/widgets/item.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,10 +97,8 @@ std::string elided(std::string_view text, float width) {
     const std::size_t middle = (keep + beyond) / 2;
     (measure(text.substr(0, middle)) <= room ? keep : beyond) = middle;
   }
-  // Not within a character of several bytes.
-  while (keep > 0 && keep < text.size() && (static_cast<unsigned char>(text[keep]) & 0xC0) == 0x80)
-    --keep;
-  return keep == 0 ? std::string() : std::string(text.substr(0, keep)) + std::string(dots);
+  const std::string_view head = head_of(text, keep);
+  return head.empty() ? std::string() : std::string(head) + std::string(dots);
 }
 
 void draw_text(ImVec2 corner, ImVec2 end, PackedColor color, std::string_view text, float align) {

@@ -1,7 +1,6 @@
 #include "core/clone/multigrid.h"
 
 #include "core/base/check.h"
-#include "core/clone/grid_kernels.h"
 #include "core/clone/pixel_solver.h"
 #include "tests/unit/clone/grid_shapes.h"
 
@@ -173,19 +172,25 @@ TEST(Multigrid, ARingsSideGivesTheBitsThatAllOfItGives) {
     std::vector<Channels> b(static_cast<std::size_t>(mask.count()));
     std::vector<Float4> line;
     MultigridSolve solve = make_solve(mask);
-    const auto solved = [&, &mask = mask] {
+    const auto start = [&, &mask = mask] {
       for (std::size_t run = 0; run < mask.runs().size(); ++run) {
         line.assign(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0),
                     {Float4::Lanes{0.5F, 0.1F, -0.2F, 0}});
         solve.set_start(run, line);
       }
+    };
+    const auto solved = [&, &mask = mask] {
       EXPECT_TRUE(solve.solve(0, 3, 3).ok());
       return get(solve, mask);
     };
     // What stands in b from before is not to be read.
     set_side(solve, mask, noise_side(mask, 9));
+    start();
     solve.set_ring_side(graph, ring);
     const std::vector<Float4> from_ring = solved();
+    solve.start_from_zero();
+    solve.set_ring_side(graph, ring);
+    const std::vector<Float4> ring_from_zero = solved();
     std::vector<Float4> sums(b.size());
     for (std::size_t edge = 0; edge < ring.size(); ++edge)
       sums[static_cast<std::size_t>(graph.ring[edge].pixel)] += ring[edge];
@@ -193,13 +198,19 @@ TEST(Multigrid, ARingsSideGivesTheBitsThatAllOfItGives) {
       for (std::size_t k = 0; k < 3; ++k)
         b[i].v[k] = sums[i][k];
     set_side(solve, mask, b);
+    start();
     const std::vector<Float4> from_all = solved();
+    solve.start_from_zero();
+    const std::vector<Float4> all_from_zero = solved();
     for (std::size_t i = 0; i < b.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        ASSERT_EQ(from_ring[i][k], from_all[i][k]) << i;
+        ASSERT_TRUE(from_ring[i][k] == from_all[i][k] && ring_from_zero[i][k] == all_from_zero[i][k]) << i;
   }
   MultigridSolve solve = make_solve(disc_mask(0, 0, 60));
   const PixelGraph graph(disc_mask(0, 0, 60));
+  for (std::size_t run = 0; run < graph.first.size(); ++run)
+    solve.set_start(
+        run, std::vector<Float4>(static_cast<std::size_t>(graph.mask.runs()[run].x1 - graph.mask.runs()[run].x0)));
   solve.set_ring_side(graph, std::vector<Float4>(graph.ring.size()));
   solve.start_from_zero();
   EXPECT_THROW((void)solve.solve(0, 1, 1), BugError);
@@ -301,100 +312,6 @@ TEST(Multigrid, ScreeningIsAddedToTheDiagonal) {
       ASSERT_TRUE(solve.solve(0.01 * kLevel, 1, 30).ok());
       EXPECT_LT(worst_error(get(solve, mask), u), 0.02 * kLevel) << screening;
     }
-}
-
-TEST(GridKernels, AllSetsGiveTheSameBits) {
-  std::mt19937 random(8);
-  std::normal_distribution<float> value;
-  std::vector<float> in(600);
-  for (float& v : in)
-    v = value(random);
-  const GridKernels plain = GridKernels::plain(), best = GridKernels::choose();
-  for (const std::size_t count : {1u, 3u, 7u, 8u, 29u, 64u}) {
-    const GridNeighbours at{&in[0], &in[71], &in[142], &in[213]};
-    const auto same = [&](auto run) {
-      std::vector<float> a(in.begin() + 300, in.begin() + 300 + 3 * 64), b = a;
-      run(plain, a.data());
-      run(best, b.data());
-      EXPECT_EQ(a, b) << count;
-    };
-    same([&](const GridKernels& k, float* out) { k.relax(out, &in[284], at, count, 0.23f); });
-    same([&](const GridKernels& k, float* out) { k.relax_zero(out, &in[284], count, 0.23f); });
-    same([&](const GridKernels& k, float* out) { k.eliminate(out, &in[284], at, count, 0.23f); });
-    same([&](const GridKernels& k, float* out) { k.start_half(out, &in[284], at.north, at.south, count, 0.23f); });
-    same([&](const GridKernels& k, float* out) { k.residual(out, &in[284], &in[400], at, count, 0.1f); });
-    same([&](const GridKernels& k, float* out) { k.add_half(out, at.north, at.south, count); });
-    same([&](const GridKernels& k, float* out) { k.weigh(out, &in[284], at.north, at.south, count); });
-    EXPECT_EQ(plain.largest(&in[5], count), best.largest(&in[5], count));
-    same([&](const GridKernels& k, float* out) { k.surplus(out, 64, {&in[0], 31}, {&in[1], 31}, count); });
-  }
-}
-
-TEST(GridKernels, JudgeEachPairByItself) {
-  // Levels of 8 bits, few of them: many pairs tie.
-  std::mt19937 random(9);
-  constexpr std::size_t kCount = 201, kStride = kCount + 1;
-  std::vector<float> planes(6 * kStride), all(3 * kCount), one(3);
-  for (float& v : planes)
-    v = static_cast<float>(random() % 5 + 90) / 255;
-  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()}) {
-    kernels.surplus(all.data(), kCount, {planes.data(), kStride}, {planes.data() + 1, kStride}, kCount);
-    for (std::size_t i = 0; i < kCount; ++i) {
-      kernels.surplus(one.data(), 1, {&planes[i], kStride}, {&planes[i + 1], kStride}, 1);
-      for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_EQ(all[k * kCount + i], one[k]) << i;
-    }
-  }
-}
-
-TEST(GridKernels, FindTheLargestWhereverItStands) {
-  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()})
-    for (std::size_t count = 0; count < 40; ++count)
-      for (std::size_t at = 0; at < count; ++at) {
-        std::vector<float> values(count + 1, 0.5f);
-        values[at] = at % 2 == 0 ? -2.0f : 2.0f;
-        values[count] = 9;
-        EXPECT_EQ(kernels.largest(values.data(), count), 2) << count << " " << at;
-      }
-}
-
-/// Of pairs whose differences are almost equally strong the stronger one is found, whatever float makes of them.
-TEST(GridKernels, JudgeNearTiesExactly) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> value(-0.04f, 0.04f);
-  constexpr std::size_t kPairs = 20'000;
-  std::vector<float> p(6 * kPairs), q(6 * kPairs, 0.0f), out(3 * kPairs);
-  const auto in = [&](std::size_t plane, std::size_t i) -> float& { return p[plane * kPairs + i]; };
-  const auto strength = [&](std::size_t first, std::size_t i) {
-    double sum = 0;
-    for (std::size_t k = first; k < first + 3; ++k)
-      sum += static_cast<double>(in(k, i)) * in(k, i);
-    return sum;
-  };
-  for (std::size_t i = 0; i < kPairs; ++i) {
-    for (std::size_t k = 0; k < 6; ++k)
-      in(k, i) = value(random);
-    // As far above the source's strength as a tie reaches, up to rounding.
-    in(5, i) = 0.1f;
-    for (std::size_t k = 0; k < 3; ++k)
-      in(k, i) += in(3 + k, i);
-    for (int step = 0; step < 20; ++step) {
-      const double s = strength(0, i), t = strength(3, i), wanted = s + std::sqrt(kTie * (s + t));
-      in(5, i) = static_cast<float>(in(5, i) + (wanted - t) / (2 * in(5, i)));
-    }
-  }
-  for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()}) {
-    kernels.surplus(out.data(), kPairs, {p.data(), kPairs}, {q.data(), kPairs}, kPairs);
-    int kept = 0;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      const double s = strength(0, i), t = strength(3, i), more = t - s;
-      const bool keeps = more > 0 && more * more > kTie * (s + t);
-      kept += keeps ? 1 : 0;
-      ASSERT_EQ(out[i] != 0, keeps) << i;
-    }
-    EXPECT_GT(kept, static_cast<int>(kPairs / 10));
-    EXPECT_LT(kept, static_cast<int>(kPairs - kPairs / 10));
-  }
 }
 
 } // namespace

@@ -20,6 +20,12 @@ protected:
       ASSERT_TRUE(done.ok()) << to_string(done.error());
     }
   }
+  /// A journal of all that the session logged, whose process is gone.
+  std::filesystem::path leave_journal(const Session& session) {
+    Journal journal = begin();
+    append_from(journal, session, 0);
+    return journal.folder();
+  }
   RecoveredJournal recover(const std::filesystem::path& journal) {
     auto recovered = recover_journal(journal);
     EXPECT_TRUE(recovered.ok()) << (recovered.ok() ? "" : to_string(recovered.error()));

@@ -26,12 +26,7 @@ TEST_F(JournalTest, keeps_a_picture_as_the_file_it_was_read_from) {
   ASSERT_TRUE(session.execute(LayerAdd{loaded_ref("again", *decode_file(std::move(*packed))), {}}).ok());
   // What becomes of the file afterwards is nobody's concern.
   folder.write("sea.jpg", "something else");
-  fs::path left;
-  {
-    Journal journal = begin();
-    append_from(journal, session, 0);
-    left = journal.folder();
-  }
+  const fs::path left = leave_journal(session);
   std::map<std::string, std::string> kept;
   for (const auto& entry : fs::recursive_directory_iterator(left / "images"))
     if (entry.is_regular_file())
@@ -53,12 +48,7 @@ TEST_F(JournalTest, a_picture_that_was_damaged_is_told_and_written_again_when_it
   Session session;
   ASSERT_TRUE(session.execute(DocumentNew{ImageRef{"sea.png", sea}, {}, {}, {}}).ok());
   ASSERT_TRUE(session.execute(LayerAdd{ImageRef{"fish.png", fish}, {}}).ok());
-  fs::path left;
-  {
-    Journal journal = begin();
-    append_from(journal, session, 0);
-    left = journal.folder();
-  }
+  const fs::path left = leave_journal(session);
   const fs::path file = left / "images" / to_string(fish.content_hash()) / "fish.png";
   const std::string whole = *read_text_file(file);
   ASSERT_TRUE(write_file(file, std::string_view(whole).substr(0, whole.size() / 2)).ok());
@@ -77,12 +67,7 @@ TEST_F(JournalTest, a_picture_that_was_damaged_is_told_and_written_again_when_it
 
 TEST_F(JournalTest, another_picture_in_the_place_of_one_is_told) {
   Session session = small_session();
-  fs::path left;
-  {
-    Journal journal = begin();
-    append_from(journal, session, 0);
-    left = journal.folder();
-  }
+  const fs::path left = leave_journal(session);
   for (const auto& entry : fs::recursive_directory_iterator(left / "images"))
     if (entry.path().filename() == "fish.png") {
       ASSERT_TRUE(write_file(entry.path(), *encode_png(session.document().layers[0].source.image)).ok());
@@ -106,12 +91,7 @@ TEST_F(JournalTest, keeps_pictures_of_any_name) {
   for (const std::string& name :
        {umlauts, umlauts + ".jpeg", std::string(250, 'a') + ".png", "a." + std::string(240, 'b')})
     ASSERT_TRUE(session.execute(LayerAdd{loaded_ref(name, wavy_image(30, 20, seed++)), "layer"}).ok());
-  fs::path left;
-  {
-    Journal journal = begin();
-    append_from(journal, session, 0);
-    left = journal.folder();
-  }
+  const fs::path left = leave_journal(session);
   RecoveredJournal recovered = recover(left);
   EXPECT_EQ(recovered.message, "");
   expect_same(recovered.session, session);

@@ -151,12 +151,7 @@ TEST_F(JournalTest, loses_the_line_in_hand_alone_wherever_it_was_cut) {
 
 TEST_F(JournalTest, replays_up_to_the_line_that_is_damaged_and_keeps_the_rest) {
   Session session = small_session();
-  fs::path left;
-  {
-    Journal journal = begin();
-    left = journal.folder();
-    append_from(journal, session, 0);
-  }
+  const fs::path left = leave_journal(session);
   std::string bad = text(left);
   const auto at = bad.find("{\"do\":\"pin.add\"");
   ASSERT_NE(at, std::string::npos);
@@ -172,12 +167,7 @@ TEST_F(JournalTest, replays_up_to_the_line_that_is_damaged_and_keeps_the_rest) {
 
 TEST_F(JournalTest, what_two_recoveries_left_over_is_all_there) {
   Session session = small_session();
-  fs::path left;
-  {
-    Journal journal = begin();
-    left = journal.folder();
-    append_from(journal, session, 0);
-  }
+  const fs::path left = leave_journal(session);
   const std::string whole = text(left);
   for (const char* rest : {"garbage\nand more\n", "garbage again\n"}) {
     set_text(left, whole + rest);
@@ -190,12 +180,7 @@ TEST_F(JournalTest, what_two_recoveries_left_over_is_all_there) {
 TEST_F(JournalTest, passes_over_no_line_that_is_neither_a_step_nor_a_comment) {
   Session session = small_session();
   must_run(session, LayerMove{{}, {7, 0}});
-  fs::path left;
-  {
-    Journal journal = begin();
-    left = journal.folder();
-    append_from(journal, session, 0);
-  }
+  const fs::path left = leave_journal(session);
   std::string bad = text(left);
   const auto at = bad.find("{\"do\":\"pin.add\""), end = bad.find('\n', at);
   ASSERT_NE(at, std::string::npos);
@@ -241,12 +226,7 @@ TEST_F(JournalTest, reads_nothing_outside_its_folder) {
 
 TEST_F(JournalTest, takes_no_more_memory_than_it_may) {
   Session session = small_session();
-  fs::path left;
-  {
-    Journal journal = begin();
-    left = journal.folder();
-    append_from(journal, session, 0);
-  }
+  const fs::path left = leave_journal(session);
   IoLimits little;
   little.memory_bytes = 200'000;
   EXPECT_NE(recover_journal(left, little)->message.find("memory"), std::string::npos) << "the second picture";

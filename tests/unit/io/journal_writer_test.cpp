@@ -11,6 +11,16 @@ namespace {
 using namespace testing;
 namespace fs = std::filesystem;
 
+/// Posts a step whose picture cannot be written: a file is where the pictures' folder should be, LEFT/images.
+void append_in_vain(JournalWriter& writer, const fs::path& left) {
+  ASSERT_TRUE(write_file(left / "images", "in the way").ok());
+  DocumentNew begin;
+  begin.target = loaded_ref("target.png", wavy_image(20, 20, 1));
+  writer.append(begin);
+  writer.flush();
+  ASSERT_TRUE(writer.problem().has_value());
+}
+
 TEST(JournalWriter, writes_everything_in_order_before_it_goes) {
   const TempFolder folder;
   const Session session = small_session();
@@ -44,13 +54,7 @@ TEST(JournalWriter, tells_what_could_not_be_written_and_goes_on_when_it_can) {
   const fs::path left = journal->folder();
   {
     JournalWriter writer(std::move(*journal));
-    // A file where the pictures' folder should be.
-    ASSERT_TRUE(write_file(left / "images", "in the way").ok());
-    DocumentNew begin;
-    begin.target = loaded_ref("target.png", wavy_image(20, 20, 1));
-    writer.append(begin);
-    writer.flush();
-    ASSERT_TRUE(writer.problem().has_value());
+    append_in_vain(writer, left);
     EXPECT_EQ(writer.problem()->code, "file.write");
     fs::remove(left / "images");
     writer.append(LayerAdd{{std::string(kTargetName), {}}, {}});
@@ -76,12 +80,7 @@ TEST(JournalWriter, tries_again_by_itself_when_nothing_more_is_done) {
     changed.notify_all();
   };
   JournalWriter writer(std::move(*journal), on_news, std::chrono::milliseconds(5));
-  ASSERT_TRUE(write_file(left / "images", "in the way").ok());
-  DocumentNew begin;
-  begin.target = loaded_ref("target.png", wavy_image(20, 20, 1));
-  writer.append(begin);
-  writer.flush();
-  ASSERT_TRUE(writer.problem().has_value());
+  append_in_vain(writer, left);
   fs::remove(left / "images");
   std::unique_lock lock(mutex);
   EXPECT_TRUE(changed.wait_for(lock, std::chrono::seconds(60), [&] { return news.size() > 1; }));
