@@ -97,11 +97,10 @@ Result<SolveWay> choose_way(const CloneSystem& system, const BlendOptions& optio
   const bool is_mixed = options.mode == BlendMode::kMixed, is_export = quality == CloneQuality::kExport;
   SolveWay way{nullptr, true, kExportLevels, 1, kMostCycles};
   // Of bounds, for errors of 1.5 and 0.1 where mixed gradients are chosen: see MultigridSolve::Outcome.  After two
-  // cycles from zero errors were 0.1 to 0.6 of them, 1.2 levels at the most (blob, snake and holed, 65 k to 4 M
-  // pixels).
+  // cycles from zero errors were 0.2 to 0.5 of them, 1.0 levels at the most (blob, snake, 16 k to 4 M pixels).
   if (quality == CloneQuality::kFirst || quality == CloneQuality::kDrag)
-    way.tolerance_levels = is_mixed || options.screening > 0 ? 3 : 1, way.least = 2, way.most = 6;
-  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.14, way.least = 3, way.most = 20;
+    way.tolerance_levels = is_mixed || options.screening > 0 ? 4.2 : 1, way.least = 2, way.most = 6;
+  if (quality == CloneQuality::kRest) way.tolerance_levels = 0.18, way.least = 3, way.most = 20;
   // A membrane is no better a start than zero for what is mixed, and far from a screened solution.
   if (is_mixed || options.screening > 0) return way;
   const auto membrane = system.membrane(is_export ? CloneQuality::kDrag : quality, watch);

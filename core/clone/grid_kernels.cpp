@@ -1,6 +1,7 @@
 #include "core/clone/grid_kernels.h"
 
 #include "core/clone/guidance.h"
+#include "core/clone/pixel_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,13 @@ OVERSKETCH_INLINE void relax_body(float* __restrict u, const float* b, const Gri
   const float *w = at.west, *e = at.east, *n = at.north, *s = at.south;
   for (std::size_t i = 0; i < count; ++i)
     u[i] = (b[i] + ((w[i] + e[i]) + (n[i] + s[i]))) * inverse;
+}
+
+OVERSKETCH_INLINE void overrelax_body(float* __restrict u, const float* b, const GridNeighbours& at, std::size_t count,
+                                      float step, float keep) {
+  const float *w = at.west, *e = at.east, *n = at.north, *s = at.south;
+  for (std::size_t i = 0; i < count; ++i)
+    u[i] = (b[i] + ((w[i] + e[i]) + (n[i] + s[i]))) * step + keep * u[i];
 }
 
 OVERSKETCH_INLINE void relax_zero_body(float* __restrict u, const float* b, std::size_t count, float inverse) {
@@ -130,27 +138,39 @@ OVERSKETCH_INLINE void surplus_body(float* out, std::size_t stride, PixelPlanes 
   }
 }
 
-OVERSKETCH_INLINE void add_pairs_body(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,
-                                      const float* down, std::size_t down_stride, std::size_t count) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    float* __restrict const to = sum + k * sum_stride;
-    const float *const from = along + k * along_stride, *const more = down + k * down_stride;
-    for (std::size_t i = 0; i < count; ++i)
-      to[i] = (from[i + 1] - from[i]) + more[i];
-  }
-}
-
-OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
-  // 0 · x is not 0 for infinite x and for not-a-number.
+OVERSKETCH_INLINE bool sum_pairs_body(GridSlots<float> sums, PixelPlanes row, PairPlanes above, PairPlanes below,
+                                      std::size_t count) {
+  // What is computed on the way stays in the nearest cache.
+  constexpr std::size_t kBlock = 256, kStride = kBlock + 8;
+  std::array<float, 3 * kStride> along, block;
   int bad = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    bad |= 0.0f * values[i] != 0 ? 1 : 0;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, count - begin);
+    const PixelPlanes here{row.first + begin, row.stride};
+    surplus_body(along.data(), kStride, {here.first - 1, row.stride}, here, size + 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float *const left = along.data() + k * kStride, *const right = left + 1;
+      const float *const up = above.first + k * above.stride + begin, *const down =
+                                                                          below.first + k * below.stride + begin;
+      float* __restrict const sum = block.data() + k * kStride;
+      for (std::size_t i = 0; i < size; ++i) {
+        sum[i] = (right[i] - left[i]) + (down[i] - up[i]);
+        // 0 · x is not 0 for infinite x and for not-a-numbers.
+        bad |= 0.0f * sum[i] != 0 ? 1 : 0;
+      }
+    }
+    to_slots(block.data(), kStride, size, sums.from(begin));
+  }
   return bad == 0;
 }
 
 #define OVERSKETCH_KERNELS(name, target)                                                                               \
   target void relax_##name(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse) {     \
     relax_body(u, b, at, count, inverse);                                                                              \
+  }                                                                                                                    \
+  target void overrelax_##name(float* u, const float* b, const GridNeighbours& at, std::size_t count, float step,      \
+                               float keep) {                                                                           \
+    overrelax_body(u, b, at, count, step, keep);                                                                       \
   }                                                                                                                    \
   target void relax_zero_##name(float* u, const float* b, std::size_t count, float inverse) {                          \
     relax_zero_body(u, b, count, inverse);                                                                             \
@@ -179,16 +199,13 @@ OVERSKETCH_INLINE bool are_finite_body(const float* values, std::size_t count) {
   target void surplus_##name(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count) {        \
     surplus_body(out, stride, p, q, count);                                                                            \
   }                                                                                                                    \
-  target void add_pairs_##name(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride,       \
-                               const float* down, std::size_t down_stride, std::size_t count) {                        \
-    add_pairs_body(sum, sum_stride, along, along_stride, down, down_stride, count);                                    \
+  target bool sum_pairs_##name(GridSlots<float> sums, PixelPlanes row, PairPlanes above, PairPlanes below,             \
+                               std::size_t count) {                                                                    \
+    return sum_pairs_body(sums, row, above, below, count);                                                             \
   }                                                                                                                    \
-  target bool are_finite_##name(const float* values, std::size_t count) {                                              \
-    return are_finite_body(values, count);                                                                             \
-  }                                                                                                                    \
-  constexpr GridKernels k_##name = {relax_##name,    relax_zero_##name, eliminate_##name, residual_##name,             \
-                                    add_half_##name, start_half_##name, weigh_##name,     largest_##name,              \
-                                    surplus_##name,  add_pairs_##name,  are_finite_##name};
+  constexpr GridKernels k_##name = {relax_##name,    overrelax_##name, relax_zero_##name, eliminate_##name,            \
+                                    residual_##name, add_half_##name,  start_half_##name, weigh_##name,                \
+                                    largest_##name,  surplus_##name,   sum_pairs_##name};
 
 OVERSKETCH_KERNELS(plain, )
 #if defined(__x86_64__) && defined(__GNUC__)

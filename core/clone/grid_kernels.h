@@ -7,6 +7,17 @@ namespace oversketch {
 /// Channels that are solved at once, one after the other in memory: a slot.
 inline constexpr int kGridChannels = 3;
 
+/// Where the slots of a run's pixels are: from `even` the 1st, 3rd…, from `odd` the 2nd, 4th… (see GridLevel).
+template <class Value>
+struct GridSlots {
+  Value* even = nullptr;
+  Value* odd = nullptr;
+
+  Value* at(std::size_t pixel) const { return (pixel % 2 == 0 ? even : odd) + kGridChannels * (pixel / 2); }
+  /// From that pixel on.
+  GridSlots from(std::size_t pixel) const { return {at(pixel), at(pixel + 1)}; }
+};
+
 /// The left, right, upper and lower neighbours of values that lie one after the other.
 struct GridNeighbours {
   const float* west;
@@ -21,16 +32,23 @@ struct PixelPlanes {
   std::size_t stride;
 };
 
+/// Three channels of what belongs to pairs of pixels, in planes.
+struct PairPlanes {
+  const float* first;
+  std::size_t stride;
+};
+
 /// The inner loops of MaskMultigrid and of mixed gradients: on `count` floats, whose neighbours are `count` floats
 /// each.  Each float is computed by the same operations in the same order, whatever the processor: all sets give the
 /// same bits.
 struct GridKernels {
   /// u = (b + w + e + n + s) · inverse
   void (*relax)(float* u, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
-  /// The same with neighbours of 0.
+  /// u = (b + w + e + n + s) · step + keep · u
+  void (*overrelax)(float* u, const float* b, const GridNeighbours& at, std::size_t count, float step, float keep);
+  /// As relax with neighbours of 0.
   void (*relax_zero)(float* u, const float* b, std::size_t count, float inverse);
-  /// r = b + (w + e + n + s) · inverse, the neighbours those of b: what is left where u = 0 when u = b · inverse beside
-  /// it.
+  /// r = b + (w + e + n + s) · inverse: what is left where u = 0 when u is the neighbours · inverse beside it.
   void (*eliminate)(float* r, const float* b, const GridNeighbours& at, std::size_t count, float inverse);
   /// r = b + (w − u) + (e − u) + (n − u) + (s − u) − extra u: accurate where u is smooth.
   void (*residual)(float* r, const float* b, const float* u, const GridNeighbours& at, std::size_t count, float extra);
@@ -46,11 +64,10 @@ struct GridKernels {
   /// judged in double where float cannot tell.
   /// Three planes, `stride` floats apart.
   void (*surplus)(float* out, std::size_t stride, PixelPlanes p, PixelPlanes q, std::size_t count);
-  /// sum_i = (along_{i + 1} − along_i) + down_i of three planes each, all `stride`s in floats.
-  void (*add_pairs)(float* sum, std::size_t sum_stride, const float* along, std::size_t along_stride, const float* down,
-                    std::size_t down_stride, std::size_t count);
-  /// Whether all are finite numbers.
-  bool (*are_finite)(const float* values, std::size_t count);
+  /// Sums up the surplus of a run's pixels: of the pairs along `row`, each pixel with the next, from the one before the
+  /// first to the one after the last, and of those with the pixels above and below, which are given.
+  /// @returns whether all are finite numbers.
+  bool (*sum_pairs)(GridSlots<float> sums, PixelPlanes row, PairPlanes above, PairPlanes below, std::size_t count);
 
   /// The fastest for this processor.
   static GridKernels choose();

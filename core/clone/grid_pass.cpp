@@ -10,8 +10,10 @@ namespace {
 /// Starting a thread costs as much as this many nodes of a pass.
 constexpr int kLeastNodesPerThread = 30'000;
 
-/// How many rows before they are needed values are fetched.
+/// How many rows before they are needed values are fetched; not on grids with fewer nodes, 8 MB: what stays in the
+/// last cache comes soon enough, and asking takes a tenth of the time.
 constexpr int kAhead = 2;
+constexpr int kLeastFetched = 350'000;
 
 /// Rows at which bands begin, and one past the last row at the end; bands of about as many nodes.
 std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
@@ -34,12 +36,12 @@ std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
   return begin;
 }
 
-void run_band(GridRows& rows, const std::vector<RowStage>& stages, int begin, int end, bool is_first, bool is_last) {
-  const int lag = stages.back().lag;
+void run_band(GridRows& rows, const RowPass& pass, bool fetches, int begin, int end, bool is_first, bool is_last) {
+  const int lag = pass.stages.back().lag;
   for (int head = begin; head < end + lag; ++head) {
     std::size_t part = 0;
-    for (const RowStage& stage : stages) {
-      if (head + kAhead < end) rows.fetch(head + kAhead, part++, stages.size());
+    for (const RowStage& stage : pass.stages) {
+      if (fetches && head + kAhead < end) rows.fetch(head + kAhead, part++, pass.stages.size(), pass.needed);
       const int row = head - stage.lag;
       if (row >= begin + (is_first ? 0 : stage.lag) && row < end - (is_last ? 0 : stage.lag)) stage.run(rows, row);
     }
@@ -48,18 +50,18 @@ void run_band(GridRows& rows, const std::vector<RowStage>& stages, int begin, in
 
 } // namespace
 
-void run_stages(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros,
-                const std::vector<RowStage>& stages, int threads) {
-  const std::vector<int> begin = cut_bands(level, threads, stages.back().lag);
+void run_pass(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros,
+              const RowPass& pass, int threads) {
+  const std::vector<int> begin = cut_bands(level, threads, pass.stages.back().lag);
   const std::size_t bands = begin.size() - 1;
   run_parallel(static_cast<int>(bands), threads, [&](int i) {
     const auto band = static_cast<std::size_t>(i);
     GridRows rows(level, values, kernels, zeros);
-    run_band(rows, stages, begin[band], begin[band + 1], band == 0, band + 1 == bands);
+    run_band(rows, pass, level.count() >= kLeastFetched, begin[band], begin[band + 1], band == 0, band + 1 == bands);
   });
   for (std::size_t band = 1; band < bands; ++band) {
     GridRows rows(level, values, kernels, zeros);
-    for (const RowStage& stage : stages)
+    for (const RowStage& stage : pass.stages)
       for (int row = begin[band] - stage.lag; row < begin[band] + stage.lag; ++row)
         stage.run(rows, row);
   }

@@ -16,11 +16,16 @@ struct RowStage {
   std::function<void(GridRows&, int row)> run;
 };
 
+struct RowPass {
+  std::vector<RowStage> stages;
+  GridRows::Needed needed;
+};
+
 /// Runs the stages over all rows, together: each row is in the cache when its next stage comes.
 ///
 /// With several threads each takes a band of rows as far as it depends on nothing of its neighbours; what is left at
 /// the seams is done after.  Every value is computed from the same values as with one thread: the bits are the same.
-void run_stages(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros,
-                const std::vector<RowStage>& stages, int threads);
+void run_pass(const GridLevel& level, GridValues values, const GridKernels& kernels, std::span<const float> zeros,
+              const RowPass& pass, int threads);
 
 } // namespace oversketch

@@ -31,6 +31,13 @@ void store_over(float* slot, const Floats& v) {
   std::memcpy(slot, &v, sizeof v);
 }
 
+/// For the next but nearest cache.
+void ask_for(const float* at) {
+  __builtin_prefetch(at, 0, 2);
+  // A function that does nothing else GCC takes for one without effect: it drops the calls.
+  asm volatile("");
+}
+
 /// Values from left to right become those of a run's slots (1st, 3rd, 5th…, 2nd, 4th…).
 /// @param line  readable one float beyond its end.
 void split(const float* line, int count, float* slots) {
@@ -73,14 +80,33 @@ std::size_t GridRows::longest_cells(const GridLevel& level) {
   return at_slot((longest + 1) / 2 + 1);
 }
 
-void GridRows::fetch(int row, std::size_t part, std::size_t parts) const {
+void GridRows::fetch(int row, std::size_t part, std::size_t parts, const Needed& needed) const {
   constexpr std::size_t kLine = 64 / sizeof(float);
-  const std::size_t begin = at_slot(level_.first_in(row)), end = at_slot(level_.last_in(row));
-  const std::size_t lines = (end - begin + kLine - 1) / kLine;
-  const std::size_t until = begin + lines * (part + 1) / parts * kLine;
-  for (std::size_t at = begin + lines * part / parts * kLine; at < until; at += kLine) {
-    if (!values_.is_b_beside_boundary) __builtin_prefetch(values_.b + at, 0, 2);
-    __builtin_prefetch(values_.u + at, 1, 2);
+  const auto in_part = [&](int first, int last, auto ask) {
+    const std::size_t begin = at_slot(first), lines = (at_slot(last) - begin + kLine - 1) / kLine;
+    const std::size_t until = begin + lines * (part + 1) / parts * kLine;
+    for (std::size_t at = begin + lines * part / parts * kLine; at < until; at += kLine)
+      ask(at);
+  };
+  const auto ask_u = [&](std::size_t at) { ask_for(values_.u + at); };
+  const auto ask_b = [&](std::size_t at) { ask_for(values_.b + at); };
+  const int first = level_.first_in(row), last = level_.last_in(row);
+  const bool is_b_read = !values_.is_b_beside_boundary;
+  if (needed.u && needed.all_b && is_b_read)
+    return in_part(first, last, [&](std::size_t at) {
+      ask_b(at);
+      ask_u(at);
+    });
+  if (needed.u) in_part(first, last, ask_u);
+  if (!is_b_read) return;
+  if (needed.all_b) return in_part(first, last, ask_b);
+  const int y = level_.y_of(row);
+  for (int run = level_.begin_of(row); run < level_.end_of(row); ++run) {
+    const int begin = level_.first_of(run), end = level_.first_of(run + 1), middle = begin + (end - begin + 1) / 2;
+    if (((level_.x0_of(run) + y) & 1) == level_.coarse_colour())
+      in_part(begin, middle, ask_b);
+    else
+      in_part(middle, end, ask_b);
   }
 }
 
@@ -145,6 +171,21 @@ void GridRows::relax(int row, int colour) {
   });
 }
 
+void GridRows::overrelax(int row, int colour, float factor) {
+  const auto scale_irregular = [&](auto scale_of) {
+    for_irregular(row, colour, [&](std::size_t at, float scale) {
+      for (std::size_t k = 0; k < kC; ++k)
+        values_.u[at + k] *= scale_of(scale);
+    });
+  };
+  // Both terms are scaled after, and only the first shall be.
+  scale_irregular([](float scale) { return 1 / scale; });
+  for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+    kernels_.overrelax(values_.u + at_slot(slot), b, at, count, factor * inverse_, 1 - factor);
+  });
+  scale_irregular([](float scale) { return scale; });
+}
+
 void GridRows::relax_from_zero(int row, int colour) {
   for_cells(values_.u, row, colour, [&](int slot, const float* b, const GridNeighbours&, std::size_t count) {
     kernels_.relax_zero(values_.u + at_slot(slot), b, count, inverse_);
@@ -203,10 +244,10 @@ const float* GridRows::residual(int row) {
   const std::size_t size = at_slot(level_.last_in(row) - level_.first_in(row));
   if (cached.values.size() < size) cached.values.resize(size);
   cached.row = row;
-  if (is_side_)
-    fill_residual_of_side(row, cached.values.data());
-  else
+  if (of_ == Of::kValues)
     fill_residual(row, cached.values.data());
+  else
+    fill_residual_of_half(row, cached.values.data());
   return cached.values.data();
 }
 
@@ -223,12 +264,13 @@ void GridRows::fill_residual(int row, float* r) {
   });
 }
 
-void GridRows::fill_residual_of_side(int row, float* r) {
-  const int first = level_.first_in(row);
-  const int colour = level_.coarse_colour();
-  for_cells(values_.b, row, colour, [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
-    kernels_.eliminate(r + at_slot(slot - first), b, at, count, inverse_);
-  });
+void GridRows::fill_residual_of_half(int row, float* r) {
+  const int first = level_.first_in(row), colour = level_.coarse_colour();
+  const bool is_side = of_ == Of::kSide;
+  for_cells(is_side ? values_.b : values_.u, row, colour,
+            [&](int slot, const float* b, const GridNeighbours& at, std::size_t count) {
+              kernels_.eliminate(r + at_slot(slot - first), b, at, count, is_side ? inverse_ : 1);
+            });
 }
 
 float GridRows::largest_residual(int row) {
@@ -279,8 +321,13 @@ void GridRows::restrict_to(const GridLevel& coarse, int coarse_row, float* coars
   }
 }
 
+void GridRows::restrict_half_to(const GridLevel& coarse, int coarse_row, float* coarse_b) {
+  of_ = Of::kHalf;
+  restrict_to(coarse, coarse_row, coarse_b);
+}
+
 void GridRows::restrict_side_to(const GridLevel& coarse, int coarse_row, float* coarse_b) {
-  is_side_ = true;
+  of_ = Of::kSide;
   restrict_to(coarse, coarse_row, coarse_b);
 }
 

@@ -28,13 +28,20 @@ public:
 
   static std::size_t longest_cells(const GridLevel& level);
 
+  /// What a pass looks at: of b all, or the coarse nodes' colour.
+  struct Needed {
+    bool u = true;
+    bool all_b = true;
+  };
   /// Asks for the values of a row that is needed soon: halves of rows are too short for the processor to foresee them.
   /// One of `parts` parts of the row, so that what is done in between hides the time that they take.
-  void fetch(int row, std::size_t part, std::size_t parts) const;
+  void fetch(int row, std::size_t part, std::size_t parts, const Needed& needed) const;
 
   /// Gauss-Seidel: u of one colour from the other.
   void relax(int row, int colour);
-  /// The same where all of u is taken for 0.
+  /// The same, going `factor` times as far (SOR).
+  void overrelax(int row, int colour, float factor);
+  /// As relax where all of u is taken for 0.
   void relax_from_zero(int row, int colour);
   /// Writes the coarser grid's u times `factor` where its nodes are, and 0 on the other nodes of their colour in rows
   /// that have some.  That colour's own values are lost: it is relaxed next.
@@ -46,8 +53,9 @@ public:
   /// A row of the coarser grid's b: the residual, fully weighted (Trottenberg, Oosterlee, Schüller 2001, 2.3.3), times
   /// 4 for its unit.  Where the colour that is not the coarse nodes' was relaxed last.
   void restrict_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
-  /// The same where u is 0 on the coarse nodes' colour and b / diagonal on the other; u itself is not read.  An object
-  /// restricts either u or b.
+  /// The same where u is to be taken for 0 on the coarse nodes' colour.  An object restricts in one way.
+  void restrict_half_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
+  /// And where besides u of the other colour is b / diagonal, and no node is irregular: u itself is not read.
   void restrict_side_to(const GridLevel& coarse, int coarse_row, float* coarse_b);
   /// Largest |residual| of a row, where the colour that is not the coarse nodes' was relaxed last.
   float largest_residual(int row);
@@ -62,7 +70,7 @@ private:
   /// The residual of the coarse nodes' colour, kGridChannels floats a slot of the row.
   const float* residual(int row);
   void fill_residual(int row, float* r);
-  void fill_residual_of_side(int row, float* r);
+  void fill_residual_of_half(int row, float* r);
   /// The residuals at x0, x0 + 2, … x1 of the row beside another, 0 where there is none; in `room` if they must be put
   /// together.
   const float* corners(int row, int side, int x0, int x1, std::vector<float>& room);
@@ -82,7 +90,9 @@ private:
   std::array<std::vector<GridPiece>, 16> pieces_;
   std::array<int, 16> pieces_row_ = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   std::array<Residual, 4> residuals_;
-  bool is_side_ = false;
+  /// What `residuals_` are of.
+  enum class Of { kValues, kHalf, kSide };
+  Of of_ = Of::kValues;
   std::vector<float> line_;
   std::array<std::vector<float>, 2> corners_;
 };

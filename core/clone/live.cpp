@@ -135,7 +135,7 @@ Result<double> paint_layer(const Raster<Rgba8>& below, Raster<Rgba8>& out, const
   const StageTimer timer(watch.times, "clone.paint");
   const std::vector<LiveRow> rows = list_rows(below, out, region.system.graph(), at);
   if (plain) {
-    const RowPainting plain_painting{correction, region.system.mask(), region.pixels.data()};
+    const RowPainting plain_painting{correction, region.pixels.data()};
     const auto paint = has_avx2() ? paint_rows_avx2 : paint_rows;
     in_parts(rows, threads, [&](std::span<const LiveRow> part) { paint(plain_painting, part); });
     return correction.error;

@@ -18,6 +18,13 @@ static_assert(sizeof(LivePixel) == 8 && sizeof(Rgba8) == 4);
 // A painter writes `count` pixels, four at a time.  Of the up to three that this is too many, those within `room` are
 // painted over by the next call.
 
+/// What a run's slots go on with: they are read once, and lie in no cache.
+void fetch(GridSlots<const float> u) {
+  constexpr std::uintptr_t kBytesAhead = 1024;
+  for (const float* const slot : {u.even, u.odd})
+    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(slot) + kBytesAhead));
+}
+
 #if defined(__x86_64__)
 
 struct SsePainter {
@@ -51,6 +58,22 @@ struct SsePainter {
       store_one(out + i, g + i, u[i].v);
   }
 
+  /// A slot's colour in units, without what follows it.
+  static __m128 colour(const float* slot) {
+    const __m128 colours = _mm_castsi128_ps(_mm_set_epi32(0, -1, -1, -1));
+    return _mm_and_ps(_mm_loadu_ps(slot), colours) * LivePixel::kOpaque;
+  }
+
+  static void slots(Rgba8* out, const LivePixel* g, GridSlots<const float> u, int count) {
+    int i = 0;
+    for (; i + 4 <= count; i += 4, u = u.from(4)) {
+      fetch(u);
+      store(out + i, g + i, colour(u.even), colour(u.odd), colour(u.even + 3), colour(u.odd + 3));
+    }
+    for (; i < count; ++i, u = u.from(1))
+      store_one(out + i, g + i, colour(u.even));
+  }
+
   static void ramp(Rgba8* out, const LivePixel* g, const Float4& first, const Float4& step, int count, int room) {
     const __m128 two = step.v + step.v, four = two + two;
     __m128 a = first.v, b = first.v + step.v, c = first.v + two, d = b + two;
@@ -79,6 +102,22 @@ struct AvxPainter {
     }
     for (; i < count; ++i)
       SsePainter::store_one(out + i, g + i, u[i].v);
+  }
+
+  /// Of a slot and the next, in units.
+  [[gnu::target("avx2")]] static __m256i two(const float* slot) {
+    return _mm256_cvtps_epi32(_mm256_loadu2_m128(slot + 3, slot) * LivePixel::kOpaque);
+  }
+
+  [[gnu::target("avx2")]] static void slots(Rgba8* out, const LivePixel* g, GridSlots<const float> u, int count) {
+    const __m256i colours = _mm256_set1_epi64x(0x0000'FFFF'FFFF'FFFF);
+    int i = 0;
+    for (; i + 4 <= count; i += 4, u = u.from(4)) {
+      fetch(u);
+      // Of each half first the even one, then the odd one: the order of the pixels.
+      store(out + i, g + i, _mm256_and_si256(_mm256_packs_epi32(two(u.even), two(u.odd)), colours));
+    }
+    SsePainter::slots(out + i, g + i, u, count - i);
   }
 
   [[gnu::target("avx2")]] static void ramp(Rgba8* out, const LivePixel* g, const Float4& first, const Float4& step,
@@ -123,6 +162,13 @@ struct PlainPainter {
       store_one(out + i, g + i, u[i]);
   }
 
+  static void slots(Rgba8* out, const LivePixel* g, GridSlots<const float> u, int count) {
+    for (int i = 0; i < count; ++i, u = u.from(1)) {
+      fetch(u);
+      store_one(out + i, g + i, {LivePixel::kOpaque * Float4::Lanes{u.even[0], u.even[1], u.even[2], 0}});
+    }
+  }
+
   static void ramp(Rgba8* out, const LivePixel* g, const Float4& first, const Float4& step, int count, int) {
     const Float4 two = step + step, four = two + two;
     Float4 lanes[] = {first, first + step, first + two, first + step + two};
@@ -137,15 +183,11 @@ struct PlainPainter {
 #endif
 
 template <class Painter>
-[[gnu::always_inline]] inline void paint_row(const RowPainting& painting, const LiveRow& row,
-                                             std::vector<Float4>& line) {
+[[gnu::always_inline]] inline void paint_row(const RowPainting& painting, const LiveRow& row) {
   const Correction& correction = painting.correction;
-  if (!correction.membrane) {
-    correction.read(row.run, painting.mask.runs()[row.run], line);
-    Float4* const u = line.data() + row.skipped;
-    for (int i = 0; i < row.count; ++i)
-      u[i] = LivePixel::kOpaque * u[i];
-    Painter::pixels(row.out, painting.source + row.pixel, u, row.count, row.count);
+  if (correction.pixels) {
+    const GridSlots<const float> u = correction.pixels->slots(row.run);
+    Painter::slots(row.out, painting.source + row.pixel, u.from(static_cast<std::size_t>(row.skipped)), row.count);
     return;
   }
   int skipped = row.skipped, room = row.count;
@@ -191,9 +233,8 @@ bool pack_pixels(const Rgba* from, std::size_t count, LivePixel* to) {
 }
 
 void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows) {
-  std::vector<Float4> line;
   for (const LiveRow& row : rows)
-    paint_row<PlainPainter>(painting, row, line);
+    paint_row<PlainPainter>(painting, row);
 }
 
 #if defined(__x86_64__)
@@ -204,9 +245,8 @@ bool has_avx2() {
 
 [[gnu::target("avx2")]] void paint_rows_avx2(const RowPainting& painting, std::span<const LiveRow> rows) {
   CHECK(has_avx2(), "a processor with AVX2");
-  std::vector<Float4> line;
   for (const LiveRow& row : rows)
-    paint_row<AvxPainter>(painting, row, line);
+    paint_row<AvxPainter>(painting, row);
 }
 
 #else

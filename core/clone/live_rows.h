@@ -30,7 +30,6 @@ struct LiveRow {
 /// @param source  by pixel number.
 struct RowPainting {
   const Correction& correction;
-  const Mask& mask;
   const LivePixel* source;
 };
 

@@ -70,7 +70,7 @@ private:
 };
 
 /// Three planes of changing length, each kept with its room.
-struct Sums {
+struct Planes {
   std::vector<float> values;
   std::size_t stride = 0;
 
@@ -79,45 +79,87 @@ struct Sums {
     stride = count;
     values.resize(3 * stride);
   }
-  float* plane(std::size_t k) { return values.data() + k * stride; }
 };
 
-/// Walks along the mask's runs and those of a row beside them.
-class RowBeside {
+/// What the pairs of a row's pixels with those below must be given, where one of the two is in the mask.
+class PairsBelow {
 public:
-  RowBeside(const std::vector<Mask::Run>& runs, std::size_t begin, int y) : runs_(runs), at_(begin), y_(y) {}
+  /// Of the row y, whose pixels in the mask are `here`; `below` those of the next row.
+  void compare(int y, std::span<const Mask::Run> here, std::span<const Mask::Run> below, PlaneRows& rows,
+               const GridKernels& kernels) {
+    y_ = y;
+    unite(here, below);
+    surplus_.make_room(runs_.empty() ? 0 : runs_.back().before + static_cast<std::size_t>(length(runs_.back())));
+    rows.rewind();
+    for (const Run& run : runs_)
+      kernels.surplus(surplus_.values.data() + run.before, surplus_.stride, rows.at(run.x0, y), rows.at(run.x0, y + 1),
+                      static_cast<std::size_t>(length(run)));
+    cursor_ = 0;
+  }
 
-  /// `met(x0, x1, i)` for the parts of the run with neighbours in the mask, i the place of x0 among the row's pixels;
-  /// `open(x0, x1)` for the others.  Runs from left to right.
-  template <class Met, class Open>
-  void walk(const Mask::Run& here, Met met, Open open) {
+  bool are_of(int y) const { return y_ == y && !runs_.empty(); }
+
+  /// From x on, where what follows to the end of its run of the mask is asked for from left to right.
+  PairPlanes at(int x) {
+    while (runs_[cursor_].x1 <= x)
+      ++cursor_;
+    const Run& run = runs_[cursor_];
+    return {surplus_.values.data() + run.before + static_cast<std::size_t>(x - run.x0), surplus_.stride};
+  }
+  void rewind() { cursor_ = 0; }
+
+private:
+  struct Run {
+    int x0 = 0;
+    int x1 = 0;
+    /// Pixels in the runs before it.
+    std::size_t before = 0;
+  };
+  static int length(const Run& run) { return run.x1 - run.x0; }
+
+  void unite(std::span<const Mask::Run> a, std::span<const Mask::Run> b) {
+    runs_.clear();
+    while (!a.empty() || !b.empty()) {
+      std::span<const Mask::Run>& next = b.empty() || (!a.empty() && a.front().x0 <= b.front().x0) ? a : b;
+      const Mask::Run& run = next.front();
+      if (runs_.empty())
+        runs_.push_back({run.x0, run.x1, 0});
+      else if (runs_.back().x1 < run.x0)
+        runs_.push_back({run.x0, run.x1, runs_.back().before + static_cast<std::size_t>(length(runs_.back()))});
+      else
+        runs_.back().x1 = std::max(runs_.back().x1, run.x1);
+      next = next.subspan(1);
+    }
+  }
+
+  int y_ = 0;
+  std::vector<Run> runs_;
+  std::size_t cursor_ = 0;
+  Planes surplus_;
+};
+
+/// Where runs have no neighbours in the mask in the row beside theirs.
+class OpenBeside {
+public:
+  /// @param beside  of that row.
+  explicit OpenBeside(std::span<const Mask::Run> beside) : beside_(beside) {}
+
+  /// Calls open(x0, x1) for these parts; runs from left to right.
+  template <class Open>
+  void walk(const Mask::Run& here, Open open) {
     int x = here.x0;
-    while (at_ < runs_.size() && runs_[at_].y == y_) {
-      const Mask::Run& run = runs_[at_];
-      if (run.x0 >= here.x1) break;
-      if (run.x1 > x) {
-        const int from = std::max(run.x0, x), to = std::min(run.x1, here.x1);
-        if (x < from) open(x, from);
-        met(from, to, before_ + static_cast<std::size_t>(from - run.x0));
-        x = to;
-        if (run.x1 > here.x1) break;
-      }
-      before_ += static_cast<std::size_t>(run.x1 - run.x0);
-      ++at_;
+    while (!beside_.empty() && beside_.front().x0 < here.x1) {
+      if (x < beside_.front().x0) open(x, beside_.front().x0);
+      x = std::max(x, beside_.front().x1);
+      if (x >= here.x1) return;
+      beside_ = beside_.subspan(1);
     }
     if (x < here.x1) open(x, here.x1);
   }
 
 private:
-  const std::vector<Mask::Run>& runs_;
-  std::size_t at_;
-  int y_;
-  std::size_t before_ = 0;
+  std::span<const Mask::Run> beside_;
 };
-
-PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) {
-  return {planes.first + by, planes.stride};
-}
 
 /// A row of the mask: its runs.
 struct MaskRow {
@@ -142,104 +184,74 @@ public:
   MixedSides(const ReadPixels& read, const Mask& mask, const Mask& around, MultigridSolve& solve)
       : runs_(mask.runs()), solve_(solve), rows_(read, around) {}
 
-  /// @param part  of all `rows`.
+  /// @param part  of all rows.
   /// @returns whether all is finite.
-  bool run(std::span<const MaskRow> rows, std::span<const MaskRow> part) {
-    auto above = static_cast<std::size_t>(part.data() - rows.data());
-    // What another part computes, too.
-    if (above > 0) compare_down(rows[--above]);
+  bool run(std::span<const MaskRow> part) {
     for (const MaskRow& row : part) {
-      std::swap(up_, down_);
-      compare_down(row);
-      rows_.rewind();
       const int y = runs_[row.begin].y;
-      RowBeside upper(runs_, rows[above].begin, y - 1), lower(runs_, row.end, y + 1);
-      std::size_t offset = 0;
-      for (std::size_t run = row.begin; run < row.end; ++run) {
-        add_run(run, offset, upper, lower);
-        offset += length(runs_[run]);
-      }
-      above = static_cast<std::size_t>(&row - rows.data());
+      const auto here = std::span(runs_).subspan(row.begin, row.end - row.begin);
+      const auto above = before(row), below = after(row);
+      std::swap(up_, down_);
+      if (!up_.are_of(y - 1)) up_.compare(y - 1, above, here, rows_, kernels_);
+      down_.compare(y, here, below, rows_, kernels_);
+      rows_.rewind();
+      up_.rewind();
+      OpenBeside upper(above), lower(below);
+      for (std::size_t run = row.begin; run < row.end; ++run)
+        add_run(run, upper, lower);
     }
     return is_finite_;
   }
 
 private:
-  /// The pairs of a row's pixels with those below.
-  void compare_down(const MaskRow& row) {
-    down_.make_room(row.count);
-    rows_.rewind();
-    std::size_t offset = 0;
-    for (std::size_t run = row.begin; run < row.end; ++run) {
-      const Mask::Run& here = runs_[run];
-      kernels_.surplus(down_.plane(0) + offset, down_.stride, rows_.at(here.x0, here.y), rows_.at(here.x0, here.y + 1),
-                       length(here));
-      offset += length(here);
-    }
+  /// The runs in the row above, and below.
+  std::span<const Mask::Run> before(const MaskRow& row) const {
+    std::size_t begin = row.begin;
+    while (begin > 0 && runs_[begin - 1].y == runs_[row.begin].y - 1)
+      --begin;
+    return std::span(runs_).subspan(begin, row.begin - begin);
+  }
+  std::span<const Mask::Run> after(const MaskRow& row) const {
+    std::size_t end = row.end;
+    while (end < runs_.size() && runs_[end].y == runs_[row.begin].y + 1)
+      ++end;
+    return std::span(runs_).subspan(row.end, end - row.end);
   }
 
-  void add_run(std::size_t index, std::size_t offset, RowBeside& upper, RowBeside& lower) {
-    const Mask::Run& here = runs_[index];
-    const std::size_t count = length(here);
-    const PixelPlanes row = moved(rows_.at(here.x0 - 1, here.y), 1);
-    const PixelPlanes above = moved(rows_.at(here.x0 - 1, here.y - 1), 1);
-    const PixelPlanes below = moved(rows_.at(here.x0 - 1, here.y + 1), 1);
-    sums_.make_room(count);
-    along_.make_room(count + 1);
-    kernels_.surplus(along_.plane(0), along_.stride, moved(row, -1), row, count + 1);
-    kernels_.add_pairs(sums_.plane(0), sums_.stride, along_.plane(0), along_.stride, down_.plane(0) + offset,
-                       down_.stride, count);
-    add_ring(row, -1, 0);
-    add_ring(row, static_cast<std::ptrdiff_t>(count), count - 1);
-    add_above(here, row, above, upper);
-    lower.walk(
-        here, [](int, int, std::size_t) {}, [&](int x0, int x1) { add_ring_row(here, below, x0, x1); });
+  void add_run(std::size_t run, OpenBeside& upper, OpenBeside& lower) {
+    const Mask::Run& here = runs_[run];
+    const int count = here.x1 - here.x0;
+    const GridSlots<float> side = solve_.side(run);
+    const auto planes = [&](int dy) { return moved(rows_.at(here.x0 - 1, here.y + dy), 1); };
+    const PixelPlanes row = planes(0);
     // Of infinite values and not-a-numbers differences keep something.
-    for (std::size_t k = 0; k < 3; ++k)
-      is_finite_ = kernels_.are_finite(sums_.plane(k), count) && is_finite_;
-    solve_.set_side(index, sums_.plane(0), sums_.stride);
-  }
-
-  void add_above(const Mask::Run& here, PixelPlanes row, PixelPlanes above, RowBeside& upper) {
-    const auto subtract = [&](int x0, int x1, Sums& from, std::size_t at) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        float* const sum = sums_.plane(k) + (x0 - here.x0);
-        const float* const pairs = from.plane(k) + at;
-        for (int i = 0; i < x1 - x0; ++i)
-          sum[i] -= pairs[i];
-      }
+    is_finite_ = kernels_.sum_pairs(side, row, up_.at(here.x0), down_.at(here.x0), static_cast<std::size_t>(count)) &&
+                 is_finite_;
+    add_ring(side, 0, moved(row, -1));
+    add_ring(side, count - 1, moved(row, count));
+    const auto add_row = [&](PixelPlanes beside, int x0, int x1) {
+      for (int i = x0 - here.x0; i < x1 - here.x0; ++i)
+        add_ring(side, i, moved(beside, i));
     };
-    upper.walk(
-        here, [&](int x0, int x1, std::size_t at) { subtract(x0, x1, up_, at); },
-        [&](int x0, int x1) {
-          kernels_.surplus(along_.plane(0), along_.stride, moved(above, x0 - here.x0), moved(row, x0 - here.x0),
-                           static_cast<std::size_t>(x1 - x0));
-          subtract(x0, x1, along_, 0);
-          add_ring_row(here, above, x0, x1);
-        });
-  }
-
-  void add_ring_row(const Mask::Run& here, PixelPlanes beside, int x0, int x1) {
-    for (int x = x0; x < x1; ++x)
-      add_ring(beside, x - here.x0, static_cast<std::size_t>(x - here.x0));
+    upper.walk(here, [&](int x0, int x1) { add_row(planes(-1), x0, x1); });
+    lower.walk(here, [&](int x0, int x1) { add_row(planes(1), x0, x1); });
   }
 
   /// Adds d of a pixel outside the mask to its neighbour's sum.
-  void add_ring(PixelPlanes outside, std::ptrdiff_t at, std::size_t sum) {
-    const float* const source = outside.first + at;
+  static void add_ring(GridSlots<float> side, int pixel, PixelPlanes outside) {
+    float* const sum = side.at(static_cast<std::size_t>(pixel));
     for (std::size_t k = 0; k < 3; ++k)
-      sums_.plane(k)[sum] += source[(3 + k) * outside.stride] - source[k * outside.stride];
+      sum[k] += outside.first[(3 + k) * outside.stride] - outside.first[k * outside.stride];
   }
 
-  static std::size_t length(const Mask::Run& run) { return static_cast<std::size_t>(run.x1 - run.x0); }
+  static PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) { return {planes.first + by, planes.stride}; }
 
   const std::vector<Mask::Run>& runs_;
   MultigridSolve& solve_;
   PlaneRows rows_;
   GridKernels kernels_ = GridKernels::choose();
-  Sums sums_, along_;
-  /// The pairs of a row's pixels with those below, by place in the row: of this row, and of the row before.
-  Sums down_, up_;
+  /// Of this row, and of the row before.
+  PairsBelow down_, up_;
   bool is_finite_ = true;
 };
 
@@ -292,7 +304,7 @@ bool set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& so
   const auto parts = cut_rows(std::span(rows), most, [](const MaskRow& row) { return row.count; });
   std::atomic<bool> is_finite = true;
   run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
-    if (!MixedSides(read, mask, around, solve).run(rows, parts[static_cast<std::size_t>(i)])) is_finite = false;
+    if (!MixedSides(read, mask, around, solve).run(parts[static_cast<std::size_t>(i)])) is_finite = false;
   });
   return is_finite;
 }

@@ -3,6 +3,7 @@
 #include "core/base/result.h"
 #include "core/base/watch.h"
 #include "core/clone/float4.h"
+#include "core/clone/grid_kernels.h"
 #include "core/clone/pixel_graph.h"
 #include "core/geometry/mask.h"
 
@@ -18,8 +19,8 @@ namespace oversketch {
 /// Laplacian with 4 + λ on the diagonal and −1 for each neighbour in the mask; values outside stand in b.
 ///
 /// Every second pixel of every second row makes the next grid (coarsen in grid_level.h), down to a few hundred nodes,
-/// which are factored.  Red-black Gauss-Seidel, full weighting, bilinear interpolation (Trottenberg, Oosterlee,
-/// Schüller 2001).  Made for one mask and λ; copies share the grids.
+/// which are factored.  Red-black Gauss-Seidel, over-relaxed between two cycles, full weighting, bilinear interpolation
+/// (Trottenberg, Oosterlee, Schüller 2001).  Made for one mask and λ; copies share the grids.
 /// @threads const after making.
 class MaskMultigrid {
 public:
@@ -61,8 +62,8 @@ public:
 
   /// All of b must be set before solve().
   void set_side(std::size_t run, std::span<const Float4> values);
-  /// The same from three planes, `stride` floats apart.
-  void set_side(std::size_t run, const float* planes, std::size_t stride);
+  /// The same to be written where it stands.
+  GridSlots<float> side(std::size_t run);
   /// In place of set_side() of all runs, where b is 0 but beside the boundary: the sums of `values` at the pixels of
   /// the ring's edges.  After the start, which then stays (CHECK in solve()): unless that is zero, b is not read
   /// elsewhere, for three quarters of the time.
@@ -72,26 +73,29 @@ public:
   void set_start(std::size_t run, std::span<const Float4> values);
   void start_from_zero();
   void get(std::size_t run, std::span<Float4> values) const;
+  /// The same where it stands, for as long as this is not solved again.
+  GridSlots<const float> slots(std::size_t run) const;
 
   struct Outcome {
     int cycles = 0;
     /// By how much the last cycle's correction was smaller than the one before; 0 when there were less than two.
     double contraction = 0;
     /// What is left of the error, |u − A⁻¹ b| in any pixel and channel: c ρ/(1 − ρ), c the last coarse correction, ρ
-    /// the contraction with a margin (at least 0.25), and on tricky masks 1.5 times the largest residual besides.  A
-    /// bound as far as the error goes on shrinking by ρ: errors are at most 0.7 of it in the tests, which hold it
-    /// against exact solutions, and 0.82 of it on 4 M pixels.
+    /// the contraction with a margin (at least 0.3), 1.25 times as much where the last sweep is a half one, and on
+    /// tricky masks 1.5 times the largest residual besides.  A bound as far as the error goes on shrinking by ρ: errors
+    /// are at most 0.7 of it in the tests, which hold it against exact solutions.
     double error = 0;
   };
 
   /// Cycles, at least `least` and at most `most`, until the error is at most `tolerance`, or float can do no better.
   ///
-  /// A cycle is V(1,1), the first from zero V(½,1), and takes off nine tenths of the error; where the mask has holes or
+  /// A cycle is V(1,1), the first from zero V(½,1), the last V(1,½) where that is enough, and takes off nine tenths of
+  /// the error; where the mask has holes or
   /// slits so narrow that coarse grids see them badly it is W(1,1), for 1.5 times the time, and takes off three
   /// quarters; of pixel-sized holes all over the mask two thirds, at worst half.
   /// @errors cancelled (asked between cycles; u is then as the last cycle left it).
-  /// @cost 6 ns a pixel and cycle, most of it the memory's time; with runs of a few pixels (pixel-sized holes) 60 to
-  /// 200.
+  /// @cost 4 to 6 ns a pixel and cycle, much of it the memory's time; with runs of a few pixels (pixel-sized holes) 60
+  /// to 200.
   Result<Outcome> solve(double tolerance, int least, int most, const Watch& watch = {});
 
   std::int64_t bytes() const;

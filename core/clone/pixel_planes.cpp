@@ -152,31 +152,28 @@ void to_planes(const LivePixel* from, std::size_t count, float* planes, std::siz
     red[i] = value(from[i].r), green[i] = value(from[i].g), blue[i] = value(from[i].b);
 }
 
-void to_slots(const float* planes, std::size_t stride, std::size_t count, float* slots) {
-  const std::size_t half = (count + 1) / 2;
-  to_half(planes, stride, half, slots);
-  to_half(planes + 1, stride, count - half, slots + kSlot * half);
+void to_slots(const float* planes, std::size_t stride, std::size_t count, GridSlots<float> slots) {
+  to_half(planes, stride, (count + 1) / 2, slots.even);
+  to_half(planes + 1, stride, count / 2, slots.odd);
 }
 
-void to_slots(std::span<const Float4> from, float* slots) {
+void to_slots(std::span<const Float4> from, GridSlots<float> slots) {
   if (from.empty()) return;
-  const std::size_t half = (from.size() + 1) / 2;
-  to_half(from.data(), half, slots);
-  to_half(from.data() + 1, from.size() - half, slots + kSlot * half);
+  to_half(from.data(), (from.size() + 1) / 2, slots.even);
+  to_half(from.data() + 1, from.size() / 2, slots.odd);
 }
 
-void from_slots(const float* slots, std::span<Float4> to) {
-  const float *even = slots, *odd = slots + kSlot * ((to.size() + 1) / 2);
+void from_slots(GridSlots<const float> slots, std::span<Float4> to) {
   const Ints kColours = {-1, -1, -1, 0};
   const auto pixel = [&](const float* slot) { return Float4{(Floats)((Ints)load<Floats>(slot) & kColours)}; };
   std::size_t i = 0;
-  for (; i + 1 < to.size(); i += 2, even += kSlot, odd += kSlot) {
-    fetch(even);
-    fetch(odd);
-    to[i] = pixel(even);
-    to[i + 1] = pixel(odd);
+  for (; i + 1 < to.size(); i += 2, slots = slots.from(2)) {
+    fetch(slots.even);
+    fetch(slots.odd);
+    to[i] = pixel(slots.even);
+    to[i + 1] = pixel(slots.odd);
   }
-  if (i < to.size()) to[i] = pixel(even);
+  if (i < to.size()) to[i] = pixel(slots.even);
 }
 
 } // namespace oversketch

@@ -29,6 +29,7 @@ TEST(GridKernels, AllSetsGiveTheSameBits) {
     };
     same([&](const GridKernels& k, float* out) { k.relax(out, &in[284], at, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.relax_zero(out, &in[284], count, 0.23f); });
+    same([&](const GridKernels& k, float* out) { k.overrelax(out, &in[284], at, count, 0.3f, -0.4f); });
     same([&](const GridKernels& k, float* out) { k.eliminate(out, &in[284], at, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.start_half(out, &in[284], at.north, at.south, count, 0.23f); });
     same([&](const GridKernels& k, float* out) { k.residual(out, &in[284], &in[400], at, count, 0.1f); });

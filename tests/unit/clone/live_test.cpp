@@ -257,7 +257,7 @@ TEST(LiveRows, WithAndWithoutAvx2TheBitsAreTheSame) {
       ring.push_back({Float4::Lanes{value(random), value(random), value(random), 0}});
     const MembraneValues values = (*membrane)->solve(ring);
     const Correction correction{*membrane, values, nullptr, 0};
-    const RowPainting painting{correction, mask, parts.region.data().pixels.data()};
+    const RowPainting painting{correction, parts.region.data().pixels.data()};
     std::vector<Rgba8> plain(static_cast<std::size_t>(graph.count)), fast = plain;
     const auto rows_into = [&](std::vector<Rgba8>& out) {
       std::vector<LiveRow> rows;

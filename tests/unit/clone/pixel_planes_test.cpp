@@ -86,14 +86,17 @@ TEST(PixelPlanes, GoIntoSlotsAndOut) {
         planes.values[k * planes.stride + i] = pixels[i][k];
     }
     std::vector<float> slots(3 * count + 1, kMark), same = slots;
-    to_slots(pixels, slots.data());
-    to_slots(planes.values.data(), planes.stride, count, same.data());
+    const auto slots_in = [&](std::vector<float>& values) {
+      return GridSlots<float>{values.data(), values.data() + 3 * ((count + 1) / 2)};
+    };
+    to_slots(pixels, slots_in(slots));
+    to_slots(planes.values.data(), planes.stride, count, slots_in(same));
     EXPECT_EQ(slots, same) << count;
     EXPECT_EQ(slots.back(), kMark) << count;
     for (std::size_t i = 0; i < count; ++i)
-      EXPECT_EQ(slots[3 * (i % 2 == 0 ? i / 2 : (count + 1) / 2 + i / 2)], pixels[i][0]) << count;
+      EXPECT_EQ(slots_in(slots).at(i)[0], pixels[i][0]) << count;
     std::vector<Float4> back(count);
-    from_slots(slots.data(), back);
+    from_slots({slots_in(slots).even, slots_in(slots).odd}, back);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(back[i][k], pixels[i][k]) << count;
