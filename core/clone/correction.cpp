@@ -133,10 +133,10 @@ Result<Correction> solve_on_pixels(const std::vector<Float4>& ring, const ReadPi
     solve.start_from_zero();
   if (watch.stopped()) return cancelled();
   // Of an imported gradient b is 0 but beside the ring: u is harmonic there.
-  if (options.mode != BlendMode::kMixed)
+  if (options.mode == BlendMode::kMixed)
+    set_mixed_side(read, graph.mask, solve);
+  else
     solve.set_ring_side(graph, ring);
-  else if (!set_mixed_side(read, graph.mask, solve, threads))
-    return Error{"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
   const double tolerance = way.tolerance_levels / 255 / largest_slope(options.domain, 1);
   const auto solved = solve.solve(tolerance, way.least, way.most, watch);
   if (!solved) return solved.error();

@@ -66,7 +66,7 @@ RowPass GridCycle::down(std::size_t l, From from) {
   };
   switch (from) {
   case From::kSide:
-    add_restriction(0, &GridRows::restrict_side_to);
+    add_restriction(2, &GridRows::restrict_side_to);
     pass.needed.u = false;
     return pass;
   case From::kHalf:

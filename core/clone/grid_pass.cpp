@@ -38,7 +38,9 @@ std::vector<int> cut_bands(const GridLevel& level, int threads, int lag) {
 
 void run_band(GridRows& rows, const RowPass& pass, bool fetches, int begin, int end, bool is_first, bool is_last) {
   const int lag = pass.stages.back().lag;
+  const std::function<void(int row)> write = pass.make_writer ? pass.make_writer() : nullptr;
   for (int head = begin; head < end + lag; ++head) {
+    if (write && head < end) write(head);
     std::size_t part = 0;
     for (const RowStage& stage : pass.stages) {
       if (fetches && head + kAhead < end) rows.fetch(head + kAhead, part++, pass.stages.size(), pass.needed);
@@ -54,10 +56,11 @@ void run_pass(const GridLevel& level, GridValues values, const GridKernels& kern
               const RowPass& pass, int threads) {
   const std::vector<int> begin = cut_bands(level, threads, pass.stages.back().lag);
   const std::size_t bands = begin.size() - 1;
+  const bool fetches = level.count() >= kLeastFetched && !pass.make_writer;
   run_parallel(static_cast<int>(bands), threads, [&](int i) {
     const auto band = static_cast<std::size_t>(i);
     GridRows rows(level, values, kernels, zeros);
-    run_band(rows, pass, level.count() >= kLeastFetched, begin[band], begin[band + 1], band == 0, band + 1 == bands);
+    run_band(rows, pass, fetches, begin[band], begin[band + 1], band == 0, band + 1 == bands);
   });
   for (std::size_t band = 1; band < bands; ++band) {
     GridRows rows(level, values, kernels, zeros);

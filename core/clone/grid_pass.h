@@ -19,6 +19,9 @@ struct RowStage {
 struct RowPass {
   std::vector<RowStage> stages;
   GridRows::Needed needed;
+  /// If any: makes for each thread what writes b, row by row from the top, before the stages come there.  Lags leave
+  /// room for what they read of it.
+  std::function<std::function<void(int row)>()> make_writer;
 };
 
 /// Runs the stages over all rows, together: each row is in the cache when its next stage comes.

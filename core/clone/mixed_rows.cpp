@@ -1,21 +1,17 @@
 #include "core/clone/mixed_rows.h"
 
-#include "core/base/parallel.h"
 #include "core/clone/grid_kernels.h"
 #include "core/clone/pixel_planes.h"
-#include "core/clone/row_parts.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace oversketch {
 namespace {
-
-/// Starting a thread costs as much as this many pixels.
-constexpr int kLeastPixelsPerThread = 30'000;
 
 /// The planes of a row, for all pixels that the mask's pixels in it and in the rows beside it touch.
 class PlaneRows {
@@ -161,80 +157,65 @@ private:
   std::span<const Mask::Run> beside_;
 };
 
-/// A row of the mask: its runs.
-struct MaskRow {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  std::size_t count = 0;
-};
-
-std::vector<MaskRow> list_rows(const std::vector<Mask::Run>& runs) {
-  std::vector<MaskRow> rows;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    if (run == 0 || runs[run].y != runs[run - 1].y) rows.push_back({run, run, 0});
-    rows.back().end = run + 1;
-    rows.back().count += static_cast<std::size_t>(runs[run].x1 - runs[run].x0);
-  }
-  return rows;
-}
-
 /// Sums up b, row by row from the top.
 class MixedSides {
 public:
-  MixedSides(const ReadPixels& read, const Mask& mask, const Mask& around, MultigridSolve& solve)
-      : runs_(mask.runs()), solve_(solve), rows_(read, around) {}
+  /// @param around  `mask` grown by a pixel.
+  MixedSides(ReadPixels read, const Mask& mask, std::shared_ptr<const Mask> around, MultigridSolve& solve)
+      : read_(std::move(read)), runs_(mask.runs()), around_(std::move(around)), solve_(solve), rows_(read_, *around_) {}
 
-  /// @param part  of all rows.
+  /// The runs of a row, begin ≤ run < end.
   /// @returns whether all is finite.
-  bool run(std::span<const MaskRow> part) {
-    for (const MaskRow& row : part) {
-      const int y = runs_[row.begin].y;
-      const auto here = std::span(runs_).subspan(row.begin, row.end - row.begin);
-      const auto above = before(row), below = after(row);
-      std::swap(up_, down_);
-      if (!up_.are_of(y - 1)) up_.compare(y - 1, above, here, rows_, kernels_);
-      down_.compare(y, here, below, rows_, kernels_);
-      rows_.rewind();
-      up_.rewind();
-      OpenBeside upper(above), lower(below);
-      for (std::size_t run = row.begin; run < row.end; ++run)
-        add_run(run, upper, lower);
-    }
-    return is_finite_;
+  bool add_row(std::size_t begin, std::size_t end) {
+    const int y = runs_[begin].y;
+    const auto here = std::span(runs_).subspan(begin, end - begin);
+    const auto above = before(begin), below = after(end);
+    std::swap(up_, down_);
+    if (!up_.are_of(y - 1)) up_.compare(y - 1, above, here, rows_, kernels_);
+    down_.compare(y, here, below, rows_, kernels_);
+    rows_.rewind();
+    up_.rewind();
+    OpenBeside upper(above), lower(below);
+    bool is_finite = true;
+    for (std::size_t run = begin; run < end; ++run)
+      is_finite = add_run(run, upper, lower) && is_finite;
+    return is_finite;
   }
 
 private:
-  /// The runs in the row above, and below.
-  std::span<const Mask::Run> before(const MaskRow& row) const {
-    std::size_t begin = row.begin;
-    while (begin > 0 && runs_[begin - 1].y == runs_[row.begin].y - 1)
+  /// The runs in the row above the one that begins with that run, and below the one that ends before it.
+  std::span<const Mask::Run> before(std::size_t run) const {
+    std::size_t begin = run;
+    while (begin > 0 && runs_[begin - 1].y == runs_[run].y - 1)
       --begin;
-    return std::span(runs_).subspan(begin, row.begin - begin);
+    return std::span(runs_).subspan(begin, run - begin);
   }
-  std::span<const Mask::Run> after(const MaskRow& row) const {
-    std::size_t end = row.end;
-    while (end < runs_.size() && runs_[end].y == runs_[row.begin].y + 1)
+  std::span<const Mask::Run> after(std::size_t run) const {
+    std::size_t end = run;
+    while (end < runs_.size() && runs_[end].y == runs_[run - 1].y + 1)
       ++end;
-    return std::span(runs_).subspan(row.end, end - row.end);
+    return std::span(runs_).subspan(run, end - run);
   }
 
-  void add_run(std::size_t run, OpenBeside& upper, OpenBeside& lower) {
+  /// @returns whether all is finite.
+  bool add_run(std::size_t run, OpenBeside& upper, OpenBeside& lower) {
     const Mask::Run& here = runs_[run];
     const int count = here.x1 - here.x0;
     const GridSlots<float> side = solve_.side(run);
     const auto planes = [&](int dy) { return moved(rows_.at(here.x0 - 1, here.y + dy), 1); };
     const PixelPlanes row = planes(0);
     // Of infinite values and not-a-numbers differences keep something.
-    is_finite_ = kernels_.sum_pairs(side, row, up_.at(here.x0), down_.at(here.x0), static_cast<std::size_t>(count)) &&
-                 is_finite_;
+    const bool is_finite =
+        kernels_.sum_pairs(side, row, up_.at(here.x0), down_.at(here.x0), static_cast<std::size_t>(count));
     add_ring(side, 0, moved(row, -1));
     add_ring(side, count - 1, moved(row, count));
-    const auto add_row = [&](PixelPlanes beside, int x0, int x1) {
+    const auto add_ring_row = [&](PixelPlanes beside, int x0, int x1) {
       for (int i = x0 - here.x0; i < x1 - here.x0; ++i)
         add_ring(side, i, moved(beside, i));
     };
-    upper.walk(here, [&](int x0, int x1) { add_row(planes(-1), x0, x1); });
-    lower.walk(here, [&](int x0, int x1) { add_row(planes(1), x0, x1); });
+    upper.walk(here, [&](int x0, int x1) { add_ring_row(planes(-1), x0, x1); });
+    lower.walk(here, [&](int x0, int x1) { add_ring_row(planes(1), x0, x1); });
+    return is_finite;
   }
 
   /// Adds d of a pixel outside the mask to its neighbour's sum.
@@ -246,13 +227,14 @@ private:
 
   static PixelPlanes moved(PixelPlanes planes, std::ptrdiff_t by) { return {planes.first + by, planes.stride}; }
 
+  ReadPixels read_;
   const std::vector<Mask::Run>& runs_;
+  std::shared_ptr<const Mask> around_;
   MultigridSolve& solve_;
   PlaneRows rows_;
   GridKernels kernels_ = GridKernels::choose();
   /// Of this row, and of the row before.
   PairsBelow down_, up_;
-  bool is_finite_ = true;
 };
 
 /// Reads a placed pair.
@@ -297,16 +279,12 @@ private:
 
 } // namespace
 
-bool set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve, int threads) {
-  const Mask around = grown(mask);
-  const std::vector<MaskRow> rows = list_rows(mask.runs());
-  const auto most = static_cast<int>(std::min<std::int64_t>(threads, 1 + mask.count() / kLeastPixelsPerThread));
-  const auto parts = cut_rows(std::span(rows), most, [](const MaskRow& row) { return row.count; });
-  std::atomic<bool> is_finite = true;
-  run_parallel(static_cast<int>(parts.size()), threads, [&](int i) {
-    if (!MixedSides(read, mask, around, solve).run(parts[static_cast<std::size_t>(i)])) is_finite = false;
+void set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve) {
+  const auto around = std::make_shared<const Mask>(grown(mask));
+  solve.set_side_by([read, &mask, around, &solve] {
+    const auto sides = std::make_shared<MixedSides>(read, mask, around, solve);
+    return [sides](std::size_t begin, std::size_t end) { return sides->add_row(begin, end); };
   });
-  return is_finite;
 }
 
 ReadPixels read_pair(const PlacedPair& pair) {

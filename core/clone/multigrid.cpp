@@ -99,6 +99,37 @@ std::int64_t MaskMultigrid::bytes() const {
   return bytes + (data_->grids.coarsest ? data_->grids.coarsest->bytes() : 0);
 }
 
+namespace {
+
+Error not_finite() {
+  return {"clone.not-finite", "A picture has a pixel that is not a number, or infinite.", ""};
+}
+
+/// b written row by row.
+struct SideWriting {
+  std::function<MultigridSolve::WriteSide()> make;
+  /// Set by any thread.
+  std::atomic<bool> is_finite = true;
+
+  /// One thread's, of the rows of the pixels.
+  std::function<void(int row)> writer(const GridLevel& pixels) {
+    return [this, &pixels, write = make()](int row) {
+      if (!write(static_cast<std::size_t>(pixels.begin_of(row)), static_cast<std::size_t>(pixels.end_of(row))))
+        is_finite = false;
+    };
+  }
+
+  bool write_all(const GridLevel& pixels) {
+    if (!make) return true;
+    const std::function<void(int row)> write = writer(pixels);
+    for (int row = 0; row < pixels.rows(); ++row)
+      write(row);
+    return is_finite;
+  }
+};
+
+} // namespace
+
 struct MultigridSolve::State {
   explicit State(const MaskMultigrid& grids) : data(grids.data_), cycle(data->grids) {}
 
@@ -141,14 +172,16 @@ struct MultigridSolve::State {
     const std::vector<GridLevel::Run>& runs = cycle.level(0).runs;
     return static_cast<std::size_t>(runs[run + 1].first - runs[run].first);
   }
-  Result<Outcome> sweep(double tolerance, int least, int most, const Watch& watch);
-  Result<Outcome> cycle_until(double tolerance, int least, int most, const Watch& watch);
+  Result<Outcome> sweep(double tolerance, int least, int most, SideWriting& writing, const Watch& watch);
+  Result<Outcome> cycle_until(double tolerance, int least, int most, SideWriting& writing, const Watch& watch);
 
   std::shared_ptr<const MaskMultigrid::Data> data;
   GridCycle cycle;
+  /// What is still to write b, if anything.
+  std::function<WriteSide()> make_write_side;
   bool is_zero = true;
-  /// See set_ring_side().  Several threads may set sides.
-  std::atomic<bool> is_ring_side = false;
+  /// See set_ring_side().
+  bool is_ring_side = false;
   /// The contraction of W cycles, where that is poor; else 0.
   double slowness = 0;
 };
@@ -164,6 +197,7 @@ void MultigridSolve::use_threads(int threads) {
 
 void MultigridSolve::set_ring_side(const PixelGraph& graph, std::span<const Float4> values) {
   CHECK(values.size() == graph.ring.size(), "a value for each of the ring's edges");
+  state_->make_write_side = nullptr;
   float* const b = state_->cycle.values(0).b;
   const GridLevel& level = state_->cycle.level(0);
   // From zero the first pass reads b's neighbours, too; a single grid is not worked on row by row.
@@ -187,11 +221,16 @@ void MultigridSolve::set_ring_side(const PixelGraph& graph, std::span<const Floa
 
 void MultigridSolve::set_side(std::size_t run, std::span<const Float4> values) {
   CHECK(values.size() == state_->length_of(run), "a value for each pixel of the run");
+  state_->is_ring_side = false;
+  state_->make_write_side = nullptr;
   to_slots(values, side(run));
 }
 
+void MultigridSolve::set_side_by(std::function<WriteSide()> make) {
+  state_->make_write_side = std::move(make);
+}
+
 GridSlots<float> MultigridSolve::side(std::size_t run) {
-  state_->is_ring_side = false;
   return state_->in_run(state_->cycle.values(0).b, run);
 }
 
@@ -215,19 +254,23 @@ GridSlots<const float> MultigridSolve::slots(std::size_t run) const {
 }
 
 Result<MultigridSolve::Outcome> MultigridSolve::solve(double tolerance, int least, int most, const Watch& watch) {
-  CHECK(!state_->is_zero || !state_->is_ring_side, "a ring's side goes with a start");
-  state_->cycle.values(0).is_b_beside_boundary = state_->is_ring_side;
+  State& state = *state_;
+  SideWriting writing{std::exchange(state.make_write_side, nullptr)};
+  if (writing.make) state.is_ring_side = false;
+  CHECK(!state.is_zero || !state.is_ring_side, "a ring's side goes with a start");
+  state.cycle.values(0).is_b_beside_boundary = state.is_ring_side;
   // What was learnt before is forgotten: the same b and start give the same bits, whatever was solved in between.
-  state_->cycle.is_slow = false;
-  state_->slowness = 0;
-  return state_->has_one_grid() ? state_->sweep(tolerance, least, most, watch)
-                                : state_->cycle_until(tolerance, least, most, watch);
+  state.cycle.is_slow = false;
+  state.slowness = 0;
+  return state.has_one_grid() ? state.sweep(tolerance, least, most, writing, watch)
+                              : state.cycle_until(tolerance, least, most, writing, watch);
 }
 
 /// On one grid.
 Result<MultigridSolve::Outcome> MultigridSolve::State::sweep(double tolerance, int least, int most,
-                                                             const Watch& watch) {
+                                                             SideWriting& writing, const Watch& watch) {
   Outcome out;
+  if (!writing.write_all(cycle.level(0))) return not_finite();
   do {
     if (watch.stopped()) return cancelled();
     cycle.solve_last(is_zero);
@@ -241,16 +284,19 @@ Result<MultigridSolve::Outcome> MultigridSolve::State::sweep(double tolerance, i
 }
 
 Result<MultigridSolve::Outcome> MultigridSolve::State::cycle_until(double tolerance, int least, int most,
-                                                                   const Watch& watch) {
+                                                                   SideWriting& writing, const Watch& watch) {
   Outcome out;
   double before = 0;
   using From = GridCycle::From;
   using To = GridCycle::To;
   From from = is_zero ? From::kSide : From::kValues;
+  if (from == From::kValues && !writing.write_all(cycle.level(0))) return not_finite();
   RowPass pass = cycle.down(0, from);
+  if (from == From::kSide && writing.make) pass.make_writer = [&] { return writing.writer(cycle.level(0)); };
   for (;;) {
     if (watch.stopped()) return cancelled();
     cycle.run(0, pass);
+    if (!writing.is_finite) return not_finite();
     is_zero &= out.cycles == 0;
     // From zero most of the error is smooth: a second look takes off three quarters of it, for a fourth of a cycle.
     cycle.visit(1, from == From::kSide);
