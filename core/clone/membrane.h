@@ -41,9 +41,8 @@ public:
   /// @param graph  of the mask; needed here only.
   /// @errors clone.empty-mask; clone.no-membrane (it does not pay: see above; or by the length of the edge, before
   ///   anything is made, its memory is too much); cancelled.
-  /// @cost for k = 1, 2, 4 on one core 10, 19, 39 ms and 1.4, 2.7, 6 MB for a smooth shape of 2¹⁸ pixels; twice that
-  /// for
-  ///   four times as many.
+  /// @cost for k = 1, 2, 4 on one core 10, 19, 39 ms and 1.4, 2.7, 6 MB for a smooth shape of 2¹⁸ pixels; twice
+  ///   that for four times as many.
   static Result<Membrane> make(const PixelGraph& graph, int k, const Watch& watch = {});
 
   int k() const;

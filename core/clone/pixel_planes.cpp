@@ -26,8 +26,8 @@ void store(float* to, const Floats& v) {
 
 /// What a stretch goes on with: asked for early, for it is read once and lies in no cache.
 void fetch(const void* at) {
-  constexpr std::uintptr_t kAhead = 1024;
-  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(at) + kAhead));
+  constexpr std::uintptr_t kBytesAhead = 1024;
+  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(at) + kBytesAhead));
 }
 
 Floats to_floats(const Ints& v) {

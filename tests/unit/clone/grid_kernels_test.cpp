@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -37,6 +38,37 @@ TEST(GridKernels, AllSetsGiveTheSameBits) {
     same([&](const GridKernels& k, float* out) { k.weigh(out, &in[284], at.north, at.south, count); });
     EXPECT_EQ(plain.largest(&in[5], count), best.largest(&in[5], count));
     same([&](const GridKernels& k, float* out) { k.surplus(out, 64, {&in[0], 31}, {&in[1], 31}, count); });
+  }
+}
+
+/// Of pairs along a row, of given ones above and below; longer than what is summed up at a time.
+TEST(GridKernels, SumUpWhatThePairsOfAPixelAreGiven) {
+  std::mt19937 random(10);
+  std::normal_distribution<float> value(0, 0.1F);
+  constexpr std::size_t kMost = 600, kStride = kMost + 2;
+  std::vector<float> planes(6 * kStride), above(3 * kStride), below(3 * kStride);
+  for (std::vector<float>* values : {&planes, &above, &below})
+    for (float& v : *values)
+      v = value(random);
+  const PixelPlanes row{planes.data() + 1, kStride};
+  for (const std::size_t count : {1u, 2u, 5u, 255u, 256u, 257u, 513u, 600u}) {
+    std::vector<float> along(3 * kStride);
+    GridKernels::plain().surplus(along.data(), kStride, {row.first - 1, kStride}, row, count + 1);
+    for (const GridKernels& kernels : {GridKernels::plain(), GridKernels::choose()}) {
+      constexpr float kMark = 77;
+      std::vector<float> slots(3 * count + 1, kMark);
+      const GridSlots<float> sums{slots.data(), slots.data() + 3 * ((count + 1) / 2)};
+      EXPECT_TRUE(kernels.sum_pairs(sums, row, {above.data(), kStride}, {below.data(), kStride}, count));
+      EXPECT_EQ(slots.back(), kMark);
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::size_t at = k * kStride + i;
+          ASSERT_EQ(sums.at(i)[k], (along[at + 1] - along[at]) + (below[at] - above[at])) << count << " " << i;
+        }
+      below[kStride + count - 1] = std::numeric_limits<float>::infinity();
+      EXPECT_FALSE(kernels.sum_pairs(sums, row, {above.data(), kStride}, {below.data(), kStride}, count)) << count;
+      below[kStride + count - 1] = 0;
+    }
   }
 }
 

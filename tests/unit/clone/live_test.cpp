@@ -275,5 +275,66 @@ TEST(LiveRows, WithAndWithoutAvx2TheBitsAreTheSame) {
   }
 }
 
+/// From any pixel of a run on, beyond black and white too: g + u, rounded and clamped.
+TEST(LiveRows, PaintASolutionOnThePixels) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<float> value(-1.5F, 1.5F);
+  std::uniform_int_distribution<int> level(0, 255);
+  std::vector<Mask::Run> runs;
+  for (int y = 0; y < 24; ++y)
+    runs.push_back({y, 0, y + 1});
+  const Mask mask(runs);
+  const Result<MaskMultigrid> grids = MaskMultigrid::make(mask);
+  ASSERT_TRUE(grids.ok());
+  const auto solve = std::make_shared<MultigridSolve>(*grids);
+  const Correction correction{nullptr, {}, solve, 0};
+  std::vector<LivePixel> source;
+  for (int i = 0; i < mask.count(); ++i) {
+    const auto units = [&] { return static_cast<std::int16_t>(64 * level(random) + 32); };
+    source.push_back({units(), units(), units(), 255 * 64 + 32});
+  }
+  const RowPainting painting{correction, source.data()};
+  std::size_t first = 0;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    std::vector<Float4> u(run + 1);
+    // What the fourth number is must not matter.
+    for (Float4& pixel : u)
+      pixel = {Float4::Lanes{value(random), value(random), value(random), std::nanf("")}};
+    solve->set_start(run, u);
+    for (std::size_t skipped = 0; skipped <= run; ++skipped)
+      for (std::size_t count = 1; count <= run + 1 - skipped; ++count) {
+        std::vector<Rgba8> plain(count + 1, Rgba8{1, 2, 3, 4}), fast = plain;
+        const auto row_into = [&](std::vector<Rgba8>& out) {
+          return LiveRow{run,
+                         static_cast<int>(run),
+                         static_cast<int>(skipped),
+                         static_cast<int>(count),
+                         first + skipped,
+                         nullptr,
+                         out.data()};
+        };
+        const LiveRow row = row_into(plain);
+        paint_rows(painting, std::span(&row, 1));
+        if (has_avx2()) {
+          const LiveRow same = row_into(fast);
+          paint_rows_avx2(painting, std::span(&same, 1));
+          ASSERT_EQ(plain, fast) << run << " " << skipped << " " << count;
+        }
+        EXPECT_EQ(plain.back(), (Rgba8{1, 2, 3, 4}));
+        for (std::size_t i = 0; i < count; ++i) {
+          const LivePixel& g = source[first + skipped + i];
+          const auto expected = [&](std::int16_t from, float more) {
+            return std::clamp(static_cast<double>(from + LivePixel::kOpaque * more) / 64, 0.0, 255.0);
+          };
+          EXPECT_NEAR(plain[i].r, expected(g.r, u[skipped + i][0]), 1);
+          EXPECT_NEAR(plain[i].g, expected(g.g, u[skipped + i][1]), 1);
+          EXPECT_NEAR(plain[i].b, expected(g.b, u[skipped + i][2]), 1);
+          EXPECT_EQ(plain[i].a, 255);
+        }
+      }
+    first += run + 1;
+  }
+}
+
 } // namespace
 } // namespace oversketch

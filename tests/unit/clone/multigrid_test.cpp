@@ -116,6 +116,62 @@ TEST(Multigrid, SaysHowLargeTheErrorIs) {
   }
 }
 
+/// It ends by half a sweep where that is good enough.
+TEST(Multigrid, IsAsNearAsAskedAndSaysSo) {
+  for (const auto& [name, mask] : all_masks()) {
+    const std::vector<Channels> b = noise_side(mask, 13);
+    const std::vector<Channels> exact = solve_directly(mask, b);
+    for (const double levels : {8.0, 2.0, 0.5, 0.1}) {
+      MultigridSolve solve = make_solve(mask);
+      set_side(solve, mask, b);
+      const auto done = solve.solve(levels * kLevel, 1, 60);
+      EXPECT_LE(done->error, levels * kLevel) << name;
+      EXPECT_LE(worst_error(get(solve, mask), exact), done->error + 0.01 * kLevel) << name << " " << levels;
+    }
+  }
+}
+
+/// Row by row while the first cycle looks at it, or before from a start: as if it had been set.
+TEST(Multigrid, HasItsSideWritten) {
+  for (const auto& [name, mask] : all_masks()) {
+    const std::vector<Channels> b = noise_side(mask, 14);
+    for (const int threads : {1, 3})
+      for (const bool from_zero : {true, false}) {
+        MultigridSolve set = make_solve(mask), written = make_solve(mask), from = make_solve(mask);
+        set_side(set, mask, b);
+        set_side(from, mask, b);
+        const auto copy = [&](std::size_t run) {
+          const GridSlots<float> to = written.side(run), side = from.side(run);
+          for (std::size_t i = 0; i < static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0); ++i)
+            std::copy_n(side.at(i), kGridChannels, to.at(i));
+        };
+        written.use_threads(threads);
+        written.set_side_by([&] {
+          return [&](std::size_t begin, std::size_t end) {
+            for (std::size_t run = begin; run < end; ++run)
+              copy(run);
+            return true;
+          };
+        });
+        if (!from_zero)
+          for (MultigridSolve* solve : {&set, &written})
+            for (std::size_t run = 0; run < mask.runs().size(); ++run)
+              solve->set_start(run,
+                               std::vector<Float4>(static_cast<std::size_t>(mask.runs()[run].x1 - mask.runs()[run].x0),
+                                                   Float4{Float4::Lanes{0.5F, 0.25F, 1, 0}}));
+        ASSERT_TRUE(set.solve(0, 2, 2).ok() && written.solve(0, 2, 2).ok());
+        EXPECT_TRUE(std::ranges::equal(get(set, mask), get(written, mask), [](const Float4& p, const Float4& q) {
+          return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+        })) << name;
+      }
+    MultigridSolve solve = make_solve(mask);
+    solve.set_side_by([] { return [](std::size_t, std::size_t) { return false; }; });
+    const auto done = solve.solve(0, 2, 2);
+    ASSERT_FALSE(done.ok());
+    EXPECT_EQ(done.error().code, "clone.not-finite");
+  }
+}
+
 /// How much smaller the error becomes by the third of three cycles.
 double contraction_on(const Mask& mask) {
   const std::vector<Channels> b = noise_side(mask, 4);
