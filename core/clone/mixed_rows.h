@@ -20,7 +20,7 @@ ReadPixels read_pair(const PlacedPair& pair);
 /// there where a pixel of either picture, in the mask or on its ring, is not finite.
 /// @param read  of stretches of the mask grown by a pixel; of corners that touch no side of it any values will do.
 ///   Called by all threads.  What it reads, and the mask, must last until solved.
-/// @param solve  on the mask.
+/// @param solve  on the mask; stays where it is until solved.
 /// @cost 4 ns a pixel, and reading each.
 void set_mixed_side(const ReadPixels& read, const Mask& mask, MultigridSolve& solve);
 

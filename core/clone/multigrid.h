@@ -68,8 +68,8 @@ public:
   /// Writes side() of a row's runs, begin ≤ run < end.
   /// @returns whether all is finite.
   using WriteSide = std::function<bool(std::size_t begin, std::size_t end)>;
-  /// In place of set_side() of all runs: solve() has each of its threads make one and write b by it, row by row from
-  /// the top, while the first cycle looks at it, for it is in the cache then.
+  /// In place of set_side() of all runs: the next solve() has each of its threads make one and write b by it, row by
+  /// row from the top, while the first cycle looks at it, for it is in the cache then.
   void set_side_by(std::function<WriteSide()> make);
   /// In place of set_side() of all runs, where b is 0 but beside the boundary: the sums of `values` at the pixels of
   /// the ring's edges.  After the start, which then stays (CHECK in solve()): unless that is zero, b is not read
@@ -97,9 +97,8 @@ public:
   /// Cycles, at least `least` and at most `most`, until the error is at most `tolerance`, or float can do no better.
   ///
   /// A cycle is V(1,1), the first from zero V(½,1), the last V(1,½) where that is enough, and takes off nine tenths of
-  /// the error; where the mask has holes or
-  /// slits so narrow that coarse grids see them badly it is W(1,1), for 1.5 times the time, and takes off three
-  /// quarters; of pixel-sized holes all over the mask two thirds, at worst half.
+  /// the error; where the mask has holes or slits so narrow that coarse grids see them badly it is W(1,1), for 1.5
+  /// times the time, and takes off three quarters; of pixel-sized holes all over the mask two thirds, at worst half.
   /// @errors cancelled (asked between cycles; u is then as the last cycle left it); clone.not-finite, where what writes
   ///   b says so.
   /// @cost 4 to 6 ns a pixel and cycle, much of it the memory's time; with runs of a few pixels (pixel-sized holes) 60
