@@ -16,8 +16,8 @@ struct CloneReport {
   /// A bound on the error of the solution in any pixel of the result, in 8-bit levels; a result's rounding to float is
   /// not counted.  Of a membrane: Membrane::error_share() of the range of the differences on the ring; else from the
   /// residual of the linear system.  0 where nothing was solved.  At export at most 0.03, but where float can do no
-  /// better: there, as of mixed gradients in the log domain with results ten times white, it is some ten times the
-  /// error.
+  /// better: there, as of mixed gradients in the log domain or of sources many times brighter than white in the linear
+  /// one, it is ten to some hundred times the error.
   double residual_levels = 0;
   /// Box round the pixels of the target that may have changed; all zero when the region lies wholly outside.
   Rect changed;

@@ -113,7 +113,9 @@ public:
   /// @errors as deformation().
   Result<std::vector<Deformation>> alternatives(LayerId id, int count, const Watch& watch = {});
 
-  /// The target with all visible layers blended in, lowest first.
+  /// The target with all visible layers blended in, lowest first.  Each is blended onto what is seen of those below:
+  /// where the target itself has nothing darker than black or brighter than white, what they have is cut off for that.
+  /// The result is not clamped.
   /// @errors document.none, those of warp and clone with the layer as the place, cancelled.
   Result<Image> composite(const Watch& watch = {});
 
@@ -167,8 +169,9 @@ private:
   ImagePyramid source_of(const Layer& layer);
   Result<std::shared_ptr<const LayerShape>> shape_of(const Layer& layer, const Solve& solve, bool needs_system,
                                                      const Watch& watch);
-  /// Onto the picture below it, in place.  @returns the part that may have changed, as it is after.
-  Result<WarpedRegion> blend(const Layer& layer, Raster<Rgba>& pixels, const Watch& watch);
+  /// Onto the picture below it, in place; or onto what is seen of it (see composite()).
+  /// @returns the part that may have changed, as it is after.
+  Result<WarpedRegion> blend(const Layer& layer, bool onto_seen, Raster<Rgba>& pixels, const Watch& watch);
   /// The picture up to and including the layer of that index.
   Result<Image> composite_until(const Document& document, std::size_t count, const Watch& watch);
 

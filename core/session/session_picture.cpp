@@ -35,6 +35,28 @@ void paste(const WarpedRegion& part, Raster<Rgba>& pixels) {
     std::ranges::copy(part.pixels.row(y), pixels.row(part.rect.y + y).begin() + part.rect.x);
 }
 
+/// Whether no colour is darker than black or brighter than white, as in every picture of whole numbers.
+bool is_within_white(const Raster<Rgba>& pixels) {
+  const auto is_within = [](float v) { return v >= 0 && v <= 1; };
+  return std::ranges::all_of(pixels.values(),
+                             [&](const Rgba& p) { return is_within(p.r) && is_within(p.g) && is_within(p.b); });
+}
+
+void cut_to_white(Raster<Rgba>& pixels, const Rect& rect) {
+  for (int y = rect.y; y < rect.bottom(); ++y)
+    for (Rgba& p : pixels.row(y).subspan(static_cast<std::size_t>(rect.x), static_cast<std::size_t>(rect.width)))
+      for (float* const v : {&p.r, &p.g, &p.b})
+        *v = std::clamp(*v, 0.0F, 1.0F);
+}
+
+/// What a region is blended onto, within the picture: its place and the ring round it.
+Rect ground_of(const LayerShape& shape, const Layer& layer, const Rect& picture) {
+  Rect rect = grown(shape.mask.bounds(), 1);
+  rect.x += layer.placement.dx;
+  rect.y += layer.placement.dy;
+  return intersect(rect, picture);
+}
+
 } // namespace
 
 ImagePyramid Session::source_of(const Layer& layer) {
@@ -84,20 +106,30 @@ Result<std::shared_ptr<const LayerShape>> Session::shape_of(const Layer& layer, 
   return caches_->shapes.put(key, std::move(made));
 }
 
-Result<WarpedRegion> Session::blend(const Layer& layer, Raster<Rgba>& pixels, const Watch& watch) {
+Result<WarpedRegion> Session::blend(const Layer& layer, bool onto_seen, Raster<Rgba>& pixels, const Watch& watch) {
   const auto shape = shape_of(layer, solve_of(layer), layer.settings.mode != CloneMode::kNone, watch);
   if (!shape) return shape.error();
   if ((*shape)->mask.empty()) return WarpedRegion{};
   StageTimer timer(watch.times, "blend");
   const LayerShape& s = **shape;
   const auto [dx, dy] = std::pair(layer.placement.dx, layer.placement.dy);
+  WarpedRegion unseen;
+  if (onto_seen) {
+    unseen = part_of(pixels, ground_of(s, layer, pixels.rect()));
+    cut_to_white(pixels, unseen.rect);
+  }
   const auto report =
       layer.settings.mode == CloneMode::kNone
           ? paste_into(pixels, s.warped, s.mask, dx, dy, blend_options(layer), watch)
           : clone_into(pixels, s.warped, dx, dy, *s.system, blend_options(layer), CloneQuality::kExport, watch);
   if (!report) return at(place_of(layer), report.error());
   ++counters_.clone_solves;
-  return part_of(pixels, report->changed);
+  WarpedRegion painted = part_of(pixels, report->changed);
+  if (onto_seen) {
+    paste(unseen, pixels);
+    paste(painted, pixels);
+  }
+  return painted;
 }
 
 Result<Image> Session::composite_until(const Document& document, std::size_t count, const Watch& watch) {
@@ -118,6 +150,8 @@ Result<Image> Session::composite_until(const Document& document, std::size_t cou
       break;
     }
   if (have == drawn.size()) return picture;
+  // Of a target beyond white, what is beyond is meant.
+  const bool cuts = drawn.size() > 1 && is_within_white(document.target.image.pixels());
   Raster<Rgba> pixels = picture.pixels();
   for (; have < drawn.size(); ++have) {
     if (watch.stopped()) return cancelled();
@@ -126,7 +160,7 @@ Result<Image> Session::composite_until(const Document& document, std::size_t cou
       paste(*cached, pixels);
       continue;
     }
-    auto painted = blend(*drawn[have], pixels, watch);
+    auto painted = blend(*drawn[have], cuts && have > 0, pixels, watch);
     if (!painted) return painted.error();
     caches_->painted.put(keys[have + 1], std::make_shared<const WarpedRegion>(std::move(*painted)));
   }
@@ -168,7 +202,14 @@ Result<BleedForecast> Session::bleed(LayerId id, const Watch& watch) {
   if (!shape) return shape.error();
   if ((*shape)->mask.empty()) return BleedForecast{};
   const auto [dx, dy] = std::pair(layer->placement.dx, layer->placement.dy);
-  BleedForecast forecast = forecast_bleed(below->pixels(), (*shape)->warped, (*shape)->mask, dx, dy,
+  const Raster<Rgba>& target = shown().target.image.pixels();
+  Image seen = *below;
+  if (&seen.pixels() != &target && is_within_white(target)) {
+    Raster<Rgba> pixels = seen.pixels();
+    cut_to_white(pixels, ground_of(**shape, *layer, pixels.rect()));
+    seen = Image(std::move(pixels));
+  }
+  BleedForecast forecast = forecast_bleed(seen.pixels(), (*shape)->warped, (*shape)->mask, dx, dy,
                                           transformed((*deformed)->boundary, layer->placement.sub_pixel()));
   for (BleedSample& sample : forecast.samples)
     sample.at = sample.at + Point{dx + 0.0, dy + 0.0};

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace oversketch {
@@ -87,6 +88,64 @@ TEST(LivePicture, is_the_composite_to_a_level_for_each_layer_at_rest) {
   const auto composite = session.composite();
   ASSERT_TRUE(composite.ok());
   EXPECT_LE(worst_difference(follower.screen, to_display(*composite)), 4);
+}
+
+/// Level `outside`, and `inside` in a disc in the middle.
+Image disc_image(int size, float outside, float inside, double radius) {
+  Raster<Rgba> pixels(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const float v = std::hypot(x - size / 2.0, y - size / 2.0) < radius ? inside : outside;
+      pixels.at(x, y) = {v, v, v, 1};
+    }
+  return Image(std::move(pixels));
+}
+
+// What a lower layer has beyond black and white is not seen, and an upper one is not blended onto it.
+TEST(LivePicture, is_the_composite_where_a_lower_layer_is_beyond_black_and_white) {
+  for (const bool dark : {true, false})
+    for (const CloneMode mode : {CloneMode::kImport, CloneMode::kMixed, CloneMode::kAverage, CloneMode::kMonochrome}) {
+      const auto level = [&](float v) { return dark ? v : 1 - v; };
+      Session session;
+      DocumentNew begin;
+      begin.target = loaded_ref("target.png", disc_image(160, level(0.1F), level(0.15F), 60));
+      execute(session, begin);
+      // Where the source is 0.9 the target is 0.1: the disc of 0.2 becomes −0.6.
+      execute(session, LayerAdd{loaded_ref("lower.png", disc_image(120, level(0.9F), level(0.2F), 34)), std::nullopt});
+      execute(session, RegionSet{{}, blob({60, 60}, 42)});
+      execute(session, SketchSet{{}, blob({70, 75}, 42)});
+      execute(session, LayerAdd{loaded_ref("upper.png", wavy_image(120, 110, 3)), std::nullopt});
+      execute(session, RegionSet{{}, blob({60, 55}, 30)});
+      execute(session, SketchSet{{}, blob({90, 80}, 26)});
+      LayerSet set;
+      set.mode = mode;
+      execute(session, set);
+      Follower follower;
+      follower.paint(session, Quality::kRest);
+      const auto composite = session.composite();
+      ASSERT_TRUE(composite.ok());
+      EXPECT_LE(worst_difference(follower.screen, to_display(*composite)), 3) << dark;
+    }
+}
+
+// Above white everything is meant where the target goes there.
+TEST(LivePicture, a_target_beyond_white_is_blended_onto_as_it_is) {
+  const auto picture = [](float most) {
+    Session session;
+    DocumentNew begin;
+    begin.target = loaded_ref("target.hdr", disc_image(160, most, 0.5F, 20));
+    execute(session, begin);
+    for (const Point at : {Point{60, 75}, Point{90, 80}}) {
+      execute(session, LayerAdd{loaded_ref("source.png", disc_image(120, 0.5F, 0.4F, 20)), std::nullopt});
+      execute(session, RegionSet{{}, blob({60, 60}, 30)});
+      execute(session, SketchSet{{}, blob(at, 30)});
+    }
+    return session.composite().value();
+  };
+  // Twice as bright: the source's differences stay, all else is higher by what the target is.
+  const Image bright = picture(3), brighter = picture(4);
+  EXPECT_NEAR(brighter.at(85, 85).r - bright.at(85, 85).r, 1, 0.2);
+  EXPECT_GT(bright.at(85, 85).r, 2);
 }
 
 TEST(LivePicture, painting_what_has_changed_equals_painting_all) {
