@@ -133,7 +133,8 @@ TEST(Multigrid, IsAsNearAsAskedAndSaysSo) {
 
 /// Row by row while the first cycle looks at it, or before from a start: as if it had been set.
 TEST(Multigrid, HasItsSideWritten) {
-  for (const auto& [name, mask] : all_masks()) {
+  for (const NamedMask& named : all_masks()) {
+    const Mask& mask = named.mask;
     const std::vector<Channels> b = noise_side(mask, 14);
     for (const int threads : {1, 3})
       for (const bool from_zero : {true, false}) {
@@ -162,7 +163,7 @@ TEST(Multigrid, HasItsSideWritten) {
         ASSERT_TRUE(set.solve(0, 2, 2).ok() && written.solve(0, 2, 2).ok());
         EXPECT_TRUE(std::ranges::equal(get(set, mask), get(written, mask), [](const Float4& p, const Float4& q) {
           return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
-        })) << name;
+        })) << named.name;
       }
     MultigridSolve solve = make_solve(mask);
     solve.set_side_by([] { return [](std::size_t, std::size_t) { return false; }; });
