@@ -50,7 +50,11 @@ FrameLoop::FrameLoop(Options options, std::filesystem::path assets, Window& wind
             changed_ = true;
             Window::wake();
           },
-          std::make_unique<ZenityDialog>(), assets_ / "samples") {
+          std::make_unique<ZenityDialog>(), assets_ / "samples"),
+      termination_([this] {
+        told_to_end_ = true;
+        Window::wake();
+      }) {
   if (options_.ui_map) map_.emplace(*options_.ui_map);
 }
 
@@ -238,13 +242,13 @@ Result<void> FrameLoop::run() {
     times_.spent_on(FramePart::kState);
     if (draws && options_.frame_times) times_.end_frame();
     if (auto settled = settle(); !settled) return settled;
-    if (editor_.wants_to_quit()) ended_ = true;
+    if (editor_.wants_to_quit() || told_to_end_) ended_ = true;
   }
   if (options_.record)
     if (auto recorded = editor_.record_front(*options_.record); !recorded) return recorded;
   if (options_.frame_times)
     if (auto written = times_.write(*options_.frame_times); !written) return written;
-  editor_.leave();
+  if (!told_to_end_) editor_.leave();
   if (options_.exit_when_idle && first_problem_) return *first_problem_;
   return {};
 }

@@ -3,6 +3,7 @@
 #include "app/gui/frame_times.h"
 #include "app/gui/imgui_layer.h"
 #include "app/gui/options.h"
+#include "app/gui/termination.h"
 #include "app/gui/ui_map.h"
 #include "app/gui/window.h"
 
@@ -24,7 +25,8 @@ public:
   FrameLoop(Options options, std::filesystem::path assets, Window& window);
   ~FrameLoop();
 
-  /// Until the window is closed.
+  /// Until the window is closed, or the program told to end: then nobody is asked about what is not saved, and the
+  /// journals stay.
   /// @errors what --script, --screenshot, --record or the map of the window met with; those of the fonts.
   Result<void> run();
 
@@ -71,6 +73,8 @@ private:
   bool screenshot_taken_ = false;
   bool ended_ = false;
   std::optional<Error> first_problem_;
+  std::atomic<bool> told_to_end_ = false;
+  Termination termination_;
 };
 
 } // namespace oversketch::gui

@@ -53,6 +53,10 @@ Process::~Process() {
   waitpid(id_, nullptr, 0);
 }
 
+void Process::send(int signal) const {
+  kill(id_, signal);
+}
+
 bool Process::running() {
   if (id_ < 0 || status_) return false;
   int status = 0;

@@ -25,6 +25,7 @@ public:
   Process& operator=(const Process&) = delete;
 
   bool running();
+  void send(int signal) const;
   /// The exit code, once it has ended by itself; none when it did not in time.
   std::optional<int> wait();
   /// Processor time used so far, seconds.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <numbers>
 
@@ -218,6 +219,34 @@ TEST_F(GuiSession, a_path_is_typed_into_the_file_list) {
   ASSERT_TRUE(editor.wait_for(
       "the picture", [](const Json& map) { return map.at("tabs") == Json::array({"kingfisher"}) && !map.at("busy"); }));
   EXPECT_EQ(editor.close(), 0);
+}
+
+TEST_F(GuiSession, told_to_end_it_records_and_keeps_what_is_not_saved) {
+  const testing::TempFolder folder;
+  const fs::path record = folder / "record.jsonl";
+  const std::map<std::string, std::string> environment = {{"XDG_STATE_HOME", (folder / "state").string()}};
+  Json history;
+  {
+    EditorUnderTest editor({.arguments = {"--sample", "--record", record.string()}, .environment = environment});
+    ASSERT_TRUE(editor.start());
+    ASSERT_TRUE(editor.click("tool.move"));
+    ASSERT_TRUE(editor.press("Right"));
+    ASSERT_TRUE(editor.map().at("modified"));
+    history = editor.map().at("history");
+    editor.program().send(SIGTERM);
+    EXPECT_EQ(editor.program().wait(), 0);
+  }
+  Session replayed;
+  const auto opened = open_session(replayed, record, {});
+  ASSERT_TRUE(opened.ok()) << to_string(opened.error());
+  EXPECT_EQ(replayed.history().entries().size(), history.size());
+
+  EditorUnderTest editor({.environment = environment});
+  ASSERT_TRUE(editor.start());
+  ASSERT_TRUE(editor.wait_for("the offer",
+                              [](const Json& map) { return map.at("widgets").contains("empty.recovered.0.take"); }));
+  ASSERT_TRUE(editor.click("empty.recovered.0.take"));
+  ASSERT_TRUE(editor.wait_for("the work", [&](const Json& map) { return map.value("history", Json()) == history; }));
 }
 
 } // namespace
