@@ -2,6 +2,7 @@
 #include "app/assets.h"
 #include "app/gui/frame_loop.h"
 #include "app/gui/options.h"
+#include "app/gui/termination.h"
 #include "app/gui/window.h"
 
 #include <cstdio>
@@ -14,6 +15,8 @@ using namespace oversketch;
 Result<void> run(const gui::Options& options) {
   auto assets = find_assets();
   if (!assets) return assets.error();
+  // Before there are threads: a driver makes some with the window.
+  gui::hold_end_signals();
   auto window = gui::Window::open("Oversketch", options.size);
   if (!window) return window.error();
   return gui::FrameLoop(options, *assets, **window).run();

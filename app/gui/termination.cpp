@@ -1,63 +1,65 @@
 #include "app/gui/termination.h"
 
-#include <atomic>
-#include <cerrno>
 #include <csignal>
-#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
 #include <unistd.h>
 #include <utility>
 
 namespace oversketch::gui {
 namespace {
 
-constexpr int kSignals[] = {SIGTERM, SIGINT, SIGHUP};
-constexpr char kTold = 't', kOver = 'o';
-
-/// Where a signal is passed on: all else that a handler may not do is done by who reads it.
-std::atomic<int> write_end = -1;
-
-void pass_on(int) {
-  const int before = errno;
-  [[maybe_unused]] const auto written = write(write_end, &kTold, 1);
-  errno = before;
+sigset_t end_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+    sigaddset(&set, signal);
+  return set;
 }
 
-void handle(void (*handler)(int), int flags) {
-  struct sigaction action = {};
-  action.sa_handler = handler;
-  action.sa_flags = flags;
-  for (const int signal : kSignals)
-    sigaction(signal, &action, nullptr);
+bool wait_readable(pollfd* wanted, nfds_t count) {
+  for (nfds_t i = 0; i < count; ++i)
+    wanted[i].events = POLLIN;
+  return poll(wanted, count, -1) > 0;
 }
 
-/// @returns what was read; kOver where nothing will come.
-char read_one(int descriptor) {
-  char what = kOver;
-  while (read(descriptor, &what, 1) < 0 && errno == EINTR) {
+void listen(int signals, int over, const std::function<void()>& told) {
+  pollfd both[] = {{signals, 0, 0}, {over, 0, 0}};
+  while (!wait_readable(both, 2)) {
   }
-  return what;
+  signalfd_siginfo signal;
+  if (both[1].revents != 0 || read(signals, &signal, sizeof signal) < 0) return;
+  told();
+  // From here on this thread takes what comes, and the program ends.
+  const sigset_t set = end_signals();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  while (!wait_readable(both + 1, 1)) {
+  }
 }
 
 } // namespace
 
+void hold_end_signals() {
+  const sigset_t set = end_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
 Termination::Termination(std::function<void()> told) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return;
-  read_end_ = ends[0];
-  write_end = ends[1];
-  listener_ = std::jthread([told = std::move(told), from = read_end_] {
-    if (read_one(from) == kTold) told();
-  });
-  handle(pass_on, SA_RESTART | static_cast<int>(SA_RESETHAND));
+  const sigset_t set = end_signals();
+  signals_ = signalfd(-1, &set, SFD_CLOEXEC);
+  over_ = eventfd(0, EFD_CLOEXEC);
+  if (signals_ >= 0 && over_ >= 0)
+    listener_ = std::jthread([this, told = std::move(told)] { listen(signals_, over_, told); });
 }
 
 Termination::~Termination() {
-  if (read_end_ < 0) return;
-  handle(SIG_DFL, 0);
-  [[maybe_unused]] const auto written = write(write_end, &kOver, 1);
-  listener_.join();
-  close(write_end.exchange(-1));
-  close(read_end_);
+  if (listener_.joinable()) {
+    eventfd_write(over_, 1);
+    listener_.join();
+  }
+  for (const int descriptor : {signals_, over_})
+    if (descriptor >= 0) close(descriptor);
 }
 
 } // namespace oversketch::gui

@@ -5,7 +5,10 @@
 
 namespace oversketch::gui {
 
-/// Hears it when the program is told to end from outside: SIGTERM, SIGINT, SIGHUP.  One at a time.
+/// SIGTERM, SIGINT and SIGHUP wait, in this thread and all that it starts, for a Termination to hear them.
+void hold_end_signals();
+
+/// Hears it when the program is told to end from outside.
 class Termination {
 public:
   /// @param told  called by a thread of its own, once; a second signal ends the program as if nobody had listened.
@@ -15,8 +18,9 @@ public:
   Termination& operator=(const Termination&) = delete;
 
 private:
-  /// The end that is read; −1 when the system gave none.
-  int read_end_ = -1;
+  /// What is read when a signal came, and what is written when this is over; −1 when the system gave none.
+  int signals_ = -1;
+  int over_ = -1;
   std::jthread listener_;
 };
 

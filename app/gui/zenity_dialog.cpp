@@ -89,7 +89,15 @@ void ZenityDialog::start(const FileRequest& request) {
   for (std::string& argument : arguments)
     pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  if (posix_spawn(&child_, program_.c_str(), &files, nullptr, pointers.data(), environ) != 0) child_ = -1;
+  // It shall end when told to, whatever signals this program holds.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  if (posix_spawn(&child_, program_.c_str(), &files, &attributes, pointers.data(), environ) != 0) child_ = -1;
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   close(ends[1]);
   output_ = ends[0];
