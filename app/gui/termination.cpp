@@ -18,31 +18,33 @@ sigset_t end_signals() {
   return set;
 }
 
-bool wait_readable(pollfd* wanted, nfds_t count) {
-  for (nfds_t i = 0; i < count; ++i)
-    wanted[i].events = POLLIN;
-  return poll(wanted, count, -1) > 0;
+/// @param how  SIG_BLOCK or SIG_UNBLOCK, for this thread.
+void mask_end_signals(int how) {
+  const sigset_t set = end_signals();
+  pthread_sigmask(how, &set, nullptr);
+}
+
+/// Until one of them can be read.
+void wait(pollfd* wanted, nfds_t count) {
+  while (poll(wanted, count, -1) < 0) {
+  }
 }
 
 void listen(int signals, int over, const std::function<void()>& told) {
-  pollfd both[] = {{signals, 0, 0}, {over, 0, 0}};
-  while (!wait_readable(both, 2)) {
-  }
+  pollfd both[] = {{signals, POLLIN, 0}, {over, POLLIN, 0}};
+  wait(both, 2);
   signalfd_siginfo signal;
   if (both[1].revents != 0 || read(signals, &signal, sizeof signal) < 0) return;
   told();
   // From here on this thread takes what comes, and the program ends.
-  const sigset_t set = end_signals();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-  while (!wait_readable(both + 1, 1)) {
-  }
+  mask_end_signals(SIG_UNBLOCK);
+  wait(both + 1, 1);
 }
 
 } // namespace
 
 void hold_end_signals() {
-  const sigset_t set = end_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  mask_end_signals(SIG_BLOCK);
 }
 
 Termination::Termination(std::function<void()> told) {
@@ -51,6 +53,8 @@ Termination::Termination(std::function<void()> told) {
   over_ = eventfd(0, EFD_CLOEXEC);
   if (signals_ >= 0 && over_ >= 0)
     listener_ = std::jthread([this, told = std::move(told)] { listen(signals_, over_, told); });
+  else
+    mask_end_signals(SIG_UNBLOCK);
 }
 
 Termination::~Termination() {
@@ -60,6 +64,8 @@ Termination::~Termination() {
   }
   for (const int descriptor : {signals_, over_})
     if (descriptor >= 0) close(descriptor);
+  // What comes now nobody hears: it ends the program.
+  mask_end_signals(SIG_UNBLOCK);
 }
 
 } // namespace oversketch::gui

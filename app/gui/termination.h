@@ -8,7 +8,7 @@ namespace oversketch::gui {
 /// SIGTERM, SIGINT and SIGHUP wait, in this thread and all that it starts, for a Termination to hear them.
 void hold_end_signals();
 
-/// Hears it when the program is told to end from outside.
+/// Hears it when the program is told to end from outside; when this is over, a signal ends the program at once.
 class Termination {
 public:
   /// @param told  called by a thread of its own, once; a second signal ends the program as if nobody had listened.

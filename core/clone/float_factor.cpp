@@ -1,5 +1,8 @@
 #include "core/clone/float_factor.h"
 
+#include "core/base/index.h"
+#include "core/base/processor.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,10 +15,6 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// Columns that are passed over together.
 constexpr int kTogether = 4;
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Columns first ≤ j < last, and the rows below that the last one has.
 struct Range {
@@ -49,7 +48,7 @@ std::vector<Range> cut_blocks(const Matrix& lower) {
 
 /// By height, and those of a height by their shape: what is repeated the processor foresees.
 void order_blocks(std::vector<Range>& ranges, const Matrix& lower) {
-  std::vector<int> range_of(index(static_cast<int>(lower.cols())));
+  std::vector<int> range_of(static_cast<std::size_t>(lower.cols()));
   for (std::size_t r = 0; r < ranges.size(); ++r)
     std::fill(range_of.begin() + ranges[r].first, range_of.begin() + ranges[r].last, static_cast<int>(r));
   for (const Range& range : ranges) {
@@ -60,9 +59,6 @@ void order_blocks(std::vector<Range>& ranges, const Matrix& lower) {
   const auto key = [](const Range& r) { return std::tuple(r.height, r.last - r.first, r.row_count, r.first); };
   std::sort(ranges.begin(), ranges.end(), [&](const Range& a, const Range& b) { return key(a) < key(b); });
 }
-
-// What is inlined into functions for several processors.
-#define OVERSKETCH_INLINE [[gnu::always_inline]] inline
 
 template <int kCount>
 using Columns = std::array<const float*, kCount>;
@@ -111,7 +107,7 @@ OVERSKETCH_INLINE void gather(const Columns<kCount>& columns, Float4* sums, cons
 } // namespace
 
 FloatFactor::FloatFactor(const Matrix& lower) {
-  inverse_.reserve(index(static_cast<int>(lower.cols())));
+  inverse_.reserve(static_cast<std::size_t>(lower.cols()));
   for (int j = 0; j < lower.cols(); ++j)
     inverse_.push_back(static_cast<float>(1 / lower.valuePtr()[lower.outerIndexPtr()[j]]));
   std::vector<Range> ranges = cut_blocks(lower);
@@ -261,7 +257,7 @@ void FloatFactor::substitute_plainly(Float4* x) const {
 }
 
 void FloatFactor::substitute(Float4* x) const {
-  __builtin_cpu_supports("avx2") ? substitute_by_avx2(x) : substitute_plainly(x);
+  has_avx2() ? substitute_by_avx2(x) : substitute_plainly(x);
 }
 
 #else

@@ -1,5 +1,6 @@
 #include "core/clone/grid_kernels.h"
 
+#include "core/base/processor.h"
 #include "core/clone/guidance.h"
 #include "core/clone/pixel_planes.h"
 
@@ -9,9 +10,6 @@
 
 namespace oversketch {
 namespace {
-
-// Bodies that are inlined into functions for several processors.
-#define OVERSKETCH_INLINE [[gnu::always_inline]] inline
 
 OVERSKETCH_INLINE void relax_body(float* __restrict u, const float* b, const GridNeighbours& at, std::size_t count,
                                   float inverse) {
@@ -220,7 +218,7 @@ GridKernels GridKernels::plain() {
 
 GridKernels GridKernels::choose() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return k_avx2;
+  if (has_avx2()) return k_avx2;
 #endif
   return k_plain;
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
+#include "core/base/processor.h"
 #include "core/clone/correction.h"
 #include "core/clone/live_blend.h"
 #include "core/clone/live_data.h"

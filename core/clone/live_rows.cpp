@@ -1,6 +1,8 @@
 #include "core/clone/live_rows.h"
 
 #include "core/base/check.h"
+#include "core/base/processor.h"
+#include "core/clone/read_ahead.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +19,6 @@ static_assert(sizeof(LivePixel) == 8 && sizeof(Rgba8) == 4);
 
 // A painter writes `count` pixels, four at a time.  Of the up to three that this is too many, those within `room` are
 // painted over by the next call.
-
-/// What a run's slots go on with: they are read once, and lie in no cache.
-void fetch(GridSlots<const float> u) {
-  constexpr std::uintptr_t kBytesAhead = 1024;
-  for (const float* const slot : {u.even, u.odd})
-    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(slot) + kBytesAhead));
-}
 
 #if defined(__x86_64__)
 
@@ -67,7 +62,8 @@ struct SsePainter {
   static void slots(Rgba8* out, const LivePixel* g, GridSlots<const float> u, int count) {
     int i = 0;
     for (; i + 4 <= count; i += 4, u = u.from(4)) {
-      fetch(u);
+      read_ahead(u.even);
+      read_ahead(u.odd);
       store(out + i, g + i, colour(u.even), colour(u.odd), colour(u.even + 3), colour(u.odd + 3));
     }
     for (; i < count; ++i, u = u.from(1))
@@ -113,7 +109,8 @@ struct AvxPainter {
     const __m256i colours = _mm256_set1_epi64x(0x0000'FFFF'FFFF'FFFF);
     int i = 0;
     for (; i + 4 <= count; i += 4, u = u.from(4)) {
-      fetch(u);
+      read_ahead(u.even);
+      read_ahead(u.odd);
       // Of each half first the even one, then the odd one: the order of the pixels.
       store(out + i, g + i, _mm256_and_si256(_mm256_packs_epi32(two(u.even), two(u.odd)), colours));
     }
@@ -164,7 +161,8 @@ struct PlainPainter {
 
   static void slots(Rgba8* out, const LivePixel* g, GridSlots<const float> u, int count) {
     for (int i = 0; i < count; ++i, u = u.from(1)) {
-      fetch(u);
+      read_ahead(u.even);
+      read_ahead(u.odd);
       store_one(out + i, g + i, {LivePixel::kOpaque * Float4::Lanes{u.even[0], u.even[1], u.even[2], 0}});
     }
   }
@@ -239,10 +237,6 @@ void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows) {
 
 #if defined(__x86_64__)
 
-bool has_avx2() {
-  return __builtin_cpu_supports("avx2") != 0;
-}
-
 [[gnu::target("avx2")]] void paint_rows_avx2(const RowPainting& painting, std::span<const LiveRow> rows) {
   CHECK(has_avx2(), "a processor with AVX2");
   for (const LiveRow& row : rows)
@@ -250,10 +244,6 @@ bool has_avx2() {
 }
 
 #else
-
-bool has_avx2() {
-  return false;
-}
 
 void paint_rows_avx2(const RowPainting&, std::span<const LiveRow>) {
   CHECK(has_avx2(), "a processor with AVX2");

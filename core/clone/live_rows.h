@@ -36,6 +36,5 @@ struct RowPainting {
 /// On any processor, and on those that can do so by AVX2 (CHECK, see has_avx2): the same bits.
 void paint_rows(const RowPainting& painting, std::span<const LiveRow> rows);
 void paint_rows_avx2(const RowPainting& painting, std::span<const LiveRow> rows);
-bool has_avx2();
 
 } // namespace oversketch

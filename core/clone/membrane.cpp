@@ -1,6 +1,7 @@
 #include "core/clone/membrane.h"
 
 #include "core/base/check.h"
+#include "core/base/index.h"
 #include "core/clone/float_factor.h"
 #include "core/clone/membrane_matrix.h"
 #include "core/clone/pixel_solver.h"
@@ -21,10 +22,6 @@ public:
     return m_nonZerosPerCol.unaryExpr([](int below) { return (below + 1.0) * (below + 1.0); }).sum();
   }
 };
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 template <class T>
 std::int64_t size_of(const std::vector<T>& values) {

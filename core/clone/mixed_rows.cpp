@@ -65,18 +65,6 @@ private:
   std::array<Row, 4> rows_;
 };
 
-/// Three planes of changing length, each kept with its room.
-struct Planes {
-  std::vector<float> values;
-  std::size_t stride = 0;
-
-  void make_room(std::size_t count) {
-    if (count <= stride) return;
-    stride = count;
-    values.resize(3 * stride);
-  }
-};
-
 /// What the pairs of a row's pixels with those below must be given, where one of the two is in the mask.
 class PairsBelow {
 public:
@@ -85,10 +73,11 @@ public:
                const GridKernels& kernels) {
     y_ = y;
     unite(here, below);
-    surplus_.make_room(runs_.empty() ? 0 : runs_.back().before + static_cast<std::size_t>(length(runs_.back())));
+    stride_ = runs_.empty() ? 0 : runs_.back().before + static_cast<std::size_t>(length(runs_.back()));
+    surplus_.resize(std::max(surplus_.size(), 3 * stride_));
     rows.rewind();
     for (const Run& run : runs_)
-      kernels.surplus(surplus_.values.data() + run.before, surplus_.stride, rows.at(run.x0, y), rows.at(run.x0, y + 1),
+      kernels.surplus(surplus_.data() + run.before, stride_, rows.at(run.x0, y), rows.at(run.x0, y + 1),
                       static_cast<std::size_t>(length(run)));
     cursor_ = 0;
   }
@@ -100,7 +89,7 @@ public:
     while (runs_[cursor_].x1 <= x)
       ++cursor_;
     const Run& run = runs_[cursor_];
-    return {surplus_.values.data() + run.before + static_cast<std::size_t>(x - run.x0), surplus_.stride};
+    return {surplus_.data() + run.before + static_cast<std::size_t>(x - run.x0), stride_};
   }
   void rewind() { cursor_ = 0; }
 
@@ -131,7 +120,9 @@ private:
   int y_ = 0;
   std::vector<Run> runs_;
   std::size_t cursor_ = 0;
-  Planes surplus_;
+  /// Three planes; the room of longer rows is kept.
+  std::vector<float> surplus_;
+  std::size_t stride_ = 0;
 };
 
 /// Where runs have no neighbours in the mask in the row beside theirs.

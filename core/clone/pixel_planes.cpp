@@ -1,5 +1,7 @@
 #include "core/clone/pixel_planes.h"
 
+#include "core/clone/read_ahead.h"
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -22,12 +24,6 @@ Vector load(const void* from) {
 
 void store(float* to, const Floats& v) {
   std::memcpy(to, &v, sizeof v);
-}
-
-/// What a stretch goes on with: asked for early, for it is read once and lies in no cache.
-void fetch(const void* at) {
-  constexpr std::uintptr_t kBytesAhead = 1024;
-  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(at) + kBytesAhead));
 }
 
 Floats to_floats(const Ints& v) {
@@ -117,7 +113,7 @@ bool to_planes(const Rgba8* from, std::size_t count, float* planes, std::size_t 
   float *red = planes, *green = planes + stride, *blue = planes + 2 * stride;
   Ints all = {-1, -1, -1, -1};
   for (; i + 4 <= count; i += 4) {
-    fetch(from + i);
+    read_ahead(from + i);
     const Ints pixels = load<Ints>(from + i);
     all &= pixels;
     store(red + i, kLevel * to_floats(pixels & 255));
@@ -139,7 +135,7 @@ void to_planes(const LivePixel* from, std::size_t count, float* planes, std::siz
   std::size_t i = 0;
   float *red = planes, *green = planes + stride, *blue = planes + 2 * stride;
   for (; i + 4 <= count; i += 4) {
-    fetch(from + i);
+    read_ahead(from + i);
     const Ints two = load<Ints>(from + i), next = load<Ints>(from + i + 2);
     const Ints red_green = __builtin_shufflevector(two, next, 0, 2, 4, 6);
     const Ints blue_alpha = __builtin_shufflevector(two, next, 1, 3, 5, 7);
@@ -168,8 +164,8 @@ void from_slots(GridSlots<const float> slots, std::span<Float4> to) {
   const auto pixel = [&](const float* slot) { return Float4{(Floats)((Ints)load<Floats>(slot) & kColours)}; };
   std::size_t i = 0;
   for (; i + 1 < to.size(); i += 2, slots = slots.from(2)) {
-    fetch(slots.even);
-    fetch(slots.odd);
+    read_ahead(slots.even);
+    read_ahead(slots.odd);
     to[i] = pixel(slots.even);
     to[i + 1] = pixel(slots.odd);
   }

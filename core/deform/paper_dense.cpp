@@ -1,6 +1,7 @@
 #include "core/deform/paper_dense.h"
 
 #include "core/base/check.h"
+#include "core/base/processor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,11 +137,7 @@ void finish_block(SplitMatrix& a, int block, int columns) {
 } // namespace
 
 Lanes widest_lanes() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? Lanes::kFour : Lanes::kTwo;
-#else
-  return Lanes::kTwo;
-#endif
+  return has_avx2() ? Lanes::kFour : Lanes::kTwo;
 }
 
 void SplitMatrix::reset(int size) {

@@ -1,5 +1,6 @@
 #include "core/geometry/curve.h"
 
+#include "core/base/index.h"
 #include "core/geometry/predicates.h"
 #include "core/geometry/segment_tree.h"
 
@@ -7,14 +8,6 @@
 #include <utility>
 
 namespace oversketch {
-
-namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-} // namespace
 
 struct ClosedCurve::Data {
   Points points;

@@ -1,5 +1,6 @@
 #include "core/warp/row_kernels.h"
 
+#include "core/base/processor.h"
 #include "core/warp/tap_mixers.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 // Each loop stands once, as plain code that the compiler turns into vector code, and is compiled twice: as it is, and
 // inlined into a function for AVX2.
-#define OVERSKETCH_INLINED [[gnu::always_inline]] inline
 #if defined(__x86_64__)
 #define OVERSKETCH_AVX2 [[gnu::target("avx2"), gnu::flatten]]
 #endif
@@ -19,11 +19,11 @@ namespace {
 constexpr int kMost = RowKernels::kMost, kBlock = RowKernels::kBlock;
 
 /// No loop is left for the rest then, which would cost more than the few values too many.
-OVERSKETCH_INLINED int whole_blocks(int count) {
+OVERSKETCH_INLINE int whole_blocks(int count) {
   return (count + kBlock - 1) / kBlock * kBlock;
 }
 
-OVERSKETCH_INLINED void invert_row(const RowInverse& row, int count, double* __restrict u, double* __restrict v) {
+OVERSKETCH_INLINE void invert_row(const RowInverse& row, int count, double* __restrict u, double* __restrict v) {
   for (int at = 0; at < count; at += kBlock)
     for (int i = at; i < at + kBlock; ++i) {
       const double b = row.b + i * row.db, vn = row.v + i * row.dv, un = row.u + i * row.du;
@@ -35,7 +35,7 @@ OVERSKETCH_INLINED void invert_row(const RowInverse& row, int count, double* __r
     }
 }
 
-OVERSKETCH_INLINED void map_row_gently(const GentleRow& from, int count, double* __restrict x, double* __restrict y) {
+OVERSKETCH_INLINE void map_row_gently(const GentleRow& from, int count, double* __restrict x, double* __restrict y) {
   const GentleRow row = from;
   std::array<float, kMost + kBlock> rest_x, rest_y;
   const int padded = whole_blocks(count);
@@ -57,8 +57,8 @@ OVERSKETCH_INLINED void map_row_gently(const GentleRow& from, int count, double*
   }
 }
 
-OVERSKETCH_INLINED void evaluate_row(const BilinearForm& form, int count, const double* __restrict u,
-                                     const double* __restrict v, double* __restrict x, double* __restrict y) {
+OVERSKETCH_INLINE void evaluate_row(const BilinearForm& form, int count, const double* __restrict u,
+                                    const double* __restrict v, double* __restrict x, double* __restrict y) {
   const BilinearForm f = form;
   for (int at = 0; at < count; at += kBlock)
     for (int i = at; i < at + kBlock; ++i) {
@@ -73,7 +73,7 @@ struct Located {
   float part;
 };
 
-OVERSKETCH_INLINED Located locate(double coordinate, double limit) {
+OVERSKETCH_INLINE Located locate(double coordinate, double limit) {
   // Adding and taking away 1.5 · 2³² leaves multiples of 2⁻²⁰: whole pixels that went through a mesh's rounding find
   // their own centre again.
   constexpr double kRound = 6442450944.0;
@@ -85,8 +85,8 @@ OVERSKETCH_INLINED Located locate(double coordinate, double limit) {
 
 /// In two sweeps: places, which the compiler makes vector code of, then colours.
 template <class Taps, class MixInside>
-OVERSKETCH_INLINED void sample_row(const Texture& texture, int count, const double* x, const double* y,
-                                   std::ptrdiff_t ahead, Rgba* out, MixInside mix_inside) {
+OVERSKETCH_INLINE void sample_row(const Texture& texture, int count, const double* x, const double* y,
+                                  std::ptrdiff_t ahead, Rgba* out, MixInside mix_inside) {
   if (count <= 0) return;
   std::array<int, kMost> first;
   std::array<float, kMost> part_x, part_y;
@@ -155,7 +155,7 @@ OVERSKETCH_AVX2 void bicubic_avx2(const Texture& texture, int count, const doubl
 
 RowKernels row_kernels(Simd simd) {
 #ifdef OVERSKETCH_AVX2
-  if (simd == Simd::kBest && __builtin_cpu_supports("avx2"))
+  if (simd == Simd::kBest && has_avx2())
     return {map_gently_avx2, invert_avx2, evaluate_avx2, bilinear_avx2, bicubic_avx2};
 #endif
   (void)simd;

@@ -1,6 +1,7 @@
 #include "core/clone/live.h"
 
 #include "core/base/check.h"
+#include "core/base/processor.h"
 #include "core/clone/live_data.h"
 #include "tests/unit/clone/clone_calls.h"
 
